@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <map>
+
+#include "loopmark/core/error.hpp"
+#include "loopmark/core/interrupt.hpp"
+#include "loopmark/core/parallel.hpp"
+#include "loopmark/core/progress.hpp"
+
+namespace loopmark::app {
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> table = {
+      // {"map", "turn a drive log into a loop-closed map", set_up_map},
+  };
+  return table;
+}
+
+AppOptions Globals::options() const { return {}; }
+
+namespace {
+
+int guarded(const Action& action) {
+  try {
+    return action();
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return static_cast<int>(ExitCode::kInput);
+  } catch (const Interrupted&) {
+    std::fprintf(stderr, "interrupted\n");
+    return static_cast<int>(ExitCode::kInterrupted);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "internal error: %s\n", error.what());
+    return static_cast<int>(ExitCode::kInternal);
+  }
+}
+
+void add_globals(CLI::App& program, Globals& globals) {
+  program.add_option("--config", globals.config, "YAML file with options (see: loopmark config dump)");
+  program.add_option("--set", globals.settings, "one option, as section.name=value; may be repeated");
+  program.add_option("--threads", globals.threads, "number of threads; 0: one for each core");
+  program.add_flag("--quiet,-q", globals.quiet, "no progress lines");
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+  CLI::App program{"loopmark: LiDAR drive logs to maps that can be trusted and found again", "loopmark"};
+  program.require_subcommand(1);
+  program.fallthrough();
+  Globals globals;
+  add_globals(program, globals);
+  std::map<const CLI::App*, Action> actions;
+  for (const Command& command : commands()) {
+    CLI::App* sub = program.add_subcommand(command.name, command.summary);
+    actions[sub] = command.set_up(*sub, globals);
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kInput);
+  }
+  install_interrupt_handler();
+  set_thread_count(globals.threads);
+  Progress::set_enabled(!globals.quiet);
+  return guarded(actions.at(program.get_subcommands().front()));
+}
+
+}  // namespace loopmark::app

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/core/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+
+#include "loopmark/core/error.hpp"
+
+namespace loopmark {
+namespace {
+
+std::atomic<bool> requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "the flag is set in a signal handler");
+
+extern "C" void on_signal(int /*signal*/) {
+  if (requested.exchange(true)) {
+    std::_Exit(static_cast<int>(ExitCode::kInterrupted));
+  }
+}
+
+}  // namespace
+
+void install_interrupt_handler() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+bool interrupt_requested() { return requested.load(); }
+
+void request_interrupt(bool value) { requested.store(value); }
+
+void check_interrupt() {
+  if (interrupt_requested()) {
+    throw Interrupted();
+  }
+}
+
+}  // namespace loopmark

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "loopmark/core/options.hpp"
+
+namespace loopmark {
+
+/// Options of the registration engine; the defaults are meant for every sensor and scene.
+struct EngineOptions {
+  double min_p_correct = 0.5;      ///< answers below this probability are withheld
+  std::size_t hypotheses = 10;     ///< bird's-eye-view hypotheses that are refined and verified
+  std::uint64_t seed = 0;          ///< of everything random
+};
+
+template <class Visitor>
+void describe(Visitor& v, EngineOptions& o) {
+  v.field("min_p_correct", o.min_p_correct, "answers below this probability are withheld");
+  v.field("hypotheses", o.hypotheses, "bird's-eye-view hypotheses that are refined and verified");
+  v.field("seed", o.seed, "seed of everything random");
+}
+
+}  // namespace loopmark
