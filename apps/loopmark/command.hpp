@@ -17,10 +17,10 @@ namespace loopmark::app {
 
 /// Options that stand before or behind every subcommand.
 struct Globals {
-  std::filesystem::path config;        ///< --config FILE.yaml
-  std::vector<std::string> settings;   ///< --set a.b=c
-  std::size_t threads = 0;             ///< --threads N; 0: one a core
-  bool quiet = false;                  ///< --quiet
+  std::filesystem::path config;       ///< --config FILE.yaml
+  std::vector<std::string> settings;  ///< --set a.b=c
+  std::size_t threads = 0;            ///< --threads N; 0: one a core
+  bool quiet = false;                 ///< --quiet
 
   /// The defaults, changed by the file and then by --set. Throws InputError with file, line and nearest key.
   AppOptions options() const;

@@ -41,7 +41,8 @@ TEST(Pose, EulerFollowsTheBalancedSets) {
   const Eigen::Vector3d rpy(3.0, -7.0, 120.0);
   EXPECT_LT((euler_degrees(rotation_from_euler_degrees(rpy)) - rpy).norm(), 1e-9);
   // Rz(90) maps x to y.
-  EXPECT_LT((rotation_from_euler_degrees({0, 0, 90}) * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 1e-12);
+  EXPECT_LT((rotation_from_euler_degrees({0, 0, 90}) * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(),
+            1e-12);
 }
 
 TEST(Pose, ErrorIsTheAngleAndTheDistance) {

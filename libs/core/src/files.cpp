@@ -97,9 +97,8 @@ void write_file_atomically(const std::filesystem::path& path, const std::functio
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
-  write_file_atomically(path, [&](std::ostream& stream) {
-    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-  });
+  write_file_atomically(
+      path, [&](std::ostream& stream) { stream.write(content.data(), static_cast<std::streamsize>(content.size())); });
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -28,9 +28,7 @@ std::size_t set_thread_count(std::size_t threads) {
   return threads;
 }
 
-std::size_t thread_count() {
-  return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-}
+std::size_t thread_count() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body, std::size_t grain) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
@@ -41,8 +39,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
                     });
 }
 
-void parallel_blocks(std::size_t count, std::size_t block,
-                     const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_blocks(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& body) {
   const std::size_t blocks = (count + block - 1) / block;
   parallel_for(blocks, [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
 }

@@ -48,9 +48,7 @@ void append(PointCloud& cloud, const PointCloud& more) {
     return;
   }
   const bool first = cloud.empty();
-  const auto both = [&](const auto& a, const auto& b) {
-    return !b.empty() && (first || a.size() == cloud.size());
-  };
+  const auto both = [&](const auto& a, const auto& b) { return !b.empty() && (first || a.size() == cloud.size()); };
   append_channel(cloud.intensity, more.intensity, both(cloud.intensity, more.intensity));
   append_channel(cloud.time_offset_s, more.time_offset_s, both(cloud.time_offset_s, more.time_offset_s));
   append_channel(cloud.ring, more.ring, both(cloud.ring, more.ring));

@@ -83,8 +83,7 @@ Eigen::Vector3d euler_degrees(const Eigen::Matrix3d& r) {
 
 Eigen::Matrix3d rotation_from_euler_degrees(const Eigen::Vector3d& roll_pitch_yaw) {
   const Eigen::Vector3d a = roll_pitch_yaw / kDegrees;
-  return (Eigen::AngleAxisd(a.z(), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(a.y(), Eigen::Vector3d::UnitY()) *
+  return (Eigen::AngleAxisd(a.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(a.y(), Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(a.x(), Eigen::Vector3d::UnitX()))
       .toRotationMatrix();
 }
@@ -105,15 +104,12 @@ PoseError pose_error(const Pose& estimate, const Pose& truth) {
           rotation_angle_degrees(estimate.linear().transpose() * truth.linear())};
 }
 
-Pose interpolate(const Pose& a, const Pose& b, double ratio) {
-  return a * exp_se3(ratio * log_se3(a.inverse() * b));
-}
+Pose interpolate(const Pose& a, const Pose& b, double ratio) { return a * exp_se3(ratio * log_se3(a.inverse() * b)); }
 
 Pose rigid_from_matrix(const Eigen::Matrix4d& matrix, double tolerance) {
   const Eigen::Matrix3d m = matrix.topLeftCorner<3, 3>();
   const Eigen::RowVector4d last(0.0, 0.0, 0.0, 1.0);
-  const bool orthonormal =
-      matrix.allFinite() && (m.transpose() * m - Eigen::Matrix3d::Identity()).norm() < tolerance;
+  const bool orthonormal = matrix.allFinite() && (m.transpose() * m - Eigen::Matrix3d::Identity()).norm() < tolerance;
   if (!orthonormal || m.determinant() < 0.0 || (matrix.row(3) - last).norm() > tolerance) {
     throw std::invalid_argument("the matrix is no rigid motion");
   }

@@ -22,8 +22,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 
 /// Calls body(begin, end) for consecutive blocks of `block` indices (the last may be shorter). The blocks
 /// depend on `count` and `block` only, never on the number of threads.
-void parallel_blocks(std::size_t count, std::size_t block,
-                     const std::function<void(std::size_t, std::size_t)>& body);
+void parallel_blocks(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& body);
 
 /// Maps blocks of [0, count) in parallel, then folds the partial results in block order: the same
 /// bytes at any number of threads. map(begin, end) -> T; fold(T& total, const T& part).
@@ -33,8 +32,7 @@ T parallel_reduce_ordered(std::size_t count, std::size_t block, T total, const M
     return total;
   }
   std::vector<T> parts((count + block - 1) / block, total);
-  parallel_blocks(count, block,
-                  [&](std::size_t begin, std::size_t end) { parts[begin / block] = map(begin, end); });
+  parallel_blocks(count, block, [&](std::size_t begin, std::size_t end) { parts[begin / block] = map(begin, end); });
   for (const T& part : parts) {
     fold(total, part);
   }

@@ -14,9 +14,9 @@ namespace loopmark {
 /// The other channels are either empty or as long as `points`.
 struct PointCloud {
   std::vector<Eigen::Vector3f> points;
-  std::vector<float> intensity;       ///< reflectance, in the unit of the log
-  std::vector<float> time_offset_s;   ///< time of each point relative to the stamp of its scan, seconds
-  std::vector<std::uint16_t> ring;    ///< laser number, 0 the lowest
+  std::vector<float> intensity;      ///< reflectance, in the unit of the log
+  std::vector<float> time_offset_s;  ///< time of each point relative to the stamp of its scan, seconds
+  std::vector<std::uint16_t> ring;   ///< laser number, 0 the lowest
 
   std::size_t size() const { return points.size(); }
   bool empty() const { return points.empty(); }
@@ -24,8 +24,8 @@ struct PointCloud {
 
 /// One sweep of a log.
 struct Scan {
-  std::size_t index = 0;   ///< place in the log, from 0
-  double stamp_s = 0.0;    ///< reference time of the scan, seconds
+  std::size_t index = 0;  ///< place in the log, from 0
+  double stamp_s = 0.0;   ///< reference time of the scan, seconds
   PointCloud cloud;
 };
 

@@ -19,10 +19,10 @@ class DamagedScan : public InputError {
 
 /// What is known of a log before its scans are read.
 struct LogInfo {
-  std::string format;             ///< "kitti-odometry", "kitti-raw", "folder-pcd", "rawlog", ...
-  std::filesystem::path path;     ///< the folder or file that was opened
-  bool stamps_given = false;      ///< stamps come from the log; else from the stated rate
-  bool truth_given = false;       ///< reference poses lie beside the scans
+  std::string format;          ///< "kitti-odometry", "kitti-raw", "folder-pcd", "rawlog", ...
+  std::filesystem::path path;  ///< the folder or file that was opened
+  bool stamps_given = false;   ///< stamps come from the log; else from the stated rate
+  bool truth_given = false;    ///< reference poses lie beside the scans
 };
 
 /// A drive log: its scans in order. Reading is thread-safe and keeps nothing in memory.
@@ -41,9 +41,9 @@ class DriveLog {
 };
 
 struct LogOptions {
-  double rate_hz = 10.0;          ///< scans per second where the log has no times
-  std::string format = "auto";    ///< forces a format
-  std::string sensor_label;       ///< rawlogs: only observations with this label; empty: the first found
+  double rate_hz = 10.0;        ///< scans per second where the log has no times
+  std::string format = "auto";  ///< forces a format
+  std::string sensor_label;     ///< rawlogs: only observations with this label; empty: the first found
 };
 
 template <class Visitor>

@@ -40,7 +40,7 @@ using Evidence = std::vector<std::pair<std::string, double>>;
 struct RegistrationMode {
   Pose T_target_source = Pose::Identity();
   double p_correct = 0.0;
-  std::string origin;      ///< the hypothesis source: "birdseye", "features", "guess"
+  std::string origin;  ///< the hypothesis source: "birdseye", "features", "guess"
   Evidence evidence;
 };
 
@@ -67,8 +67,7 @@ PreparedScan prepare_submap(const std::vector<PointCloud>& clouds, const std::ve
                             const EngineOptions& options);
 
 /// Finds T_target_source with no initial guess. The same bytes at any number of threads.
-RegistrationResult register_scans(const PreparedScan& source, const PreparedScan& target,
-                                  const EngineOptions& options);
+RegistrationResult register_scans(const PreparedScan& source, const PreparedScan& target, const EngineOptions& options);
 
 /// Refines and judges a motion that is already believed (odometry, a person): the same evidence and probability.
 RegistrationResult verify_motion(const PreparedScan& source, const PreparedScan& target, const Pose& T_target_source,

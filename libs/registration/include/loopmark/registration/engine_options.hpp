@@ -10,9 +10,9 @@ namespace loopmark {
 
 /// Options of the registration engine; the defaults are meant for every sensor and scene.
 struct EngineOptions {
-  double min_p_correct = 0.5;      ///< answers below this probability are withheld
-  std::size_t hypotheses = 10;     ///< bird's-eye-view hypotheses that are refined and verified
-  std::uint64_t seed = 0;          ///< of everything random
+  double min_p_correct = 0.5;   ///< answers below this probability are withheld
+  std::size_t hypotheses = 10;  ///< bird's-eye-view hypotheses that are refined and verified
+  std::uint64_t seed = 0;       ///< of everything random
 };
 
 template <class Visitor>

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/cloud/voxel.hpp"
+
+#include "loopmark/core/error.hpp"
+#include "loopmark/search/voxel_table.hpp"
+
+namespace loopmark {
+namespace {
+
+float inverse_of(double size_m) {
+  if (!(size_m > 0.0)) {
+    throw InputError("the voxel size must be above 0 m");
+  }
+  return static_cast<float>(1.0 / size_m);
+}
+
+}  // namespace
+
+std::vector<std::size_t> voxel_first_indices(const std::vector<Eigen::Vector3f>& points, double size_m) {
+  const float inverse = inverse_of(size_m);
+  VoxelTable table(points.size() / 4);
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (table.insert(voxel_of(points[i], inverse)) == first.size()) {
+      first.push_back(i);
+    }
+  }
+  return first;
+}
+
+std::vector<Eigen::Vector3f> voxel_centroids(const std::vector<Eigen::Vector3f>& points, double size_m) {
+  const float inverse = inverse_of(size_m);
+  VoxelTable table(points.size() / 4);
+  std::vector<Eigen::Vector3d> sums;
+  std::vector<double> counts;
+  for (const Eigen::Vector3f& point : points) {
+    const std::uint32_t voxel = table.insert(voxel_of(point, inverse));
+    if (voxel == sums.size()) {
+      sums.emplace_back(0.0, 0.0, 0.0);
+      counts.push_back(0.0);
+    }
+    sums[voxel] += point.cast<double>();
+    counts[voxel] += 1.0;
+  }
+  std::vector<Eigen::Vector3f> centroids;
+  centroids.reserve(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    centroids.emplace_back((sums[i] / counts[i]).cast<float>());
+  }
+  return centroids;
+}
+
+PointCloud voxel_downsampled(const PointCloud& cloud, double size_m) {
+  return select(cloud, voxel_first_indices(cloud.points, size_m));
+}
+
+}  // namespace loopmark
