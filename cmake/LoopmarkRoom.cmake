@@ -37,6 +37,7 @@ function(loopmark_test_program NAME)
   target_link_libraries(test_${NAME} PRIVATE loopmark_warnings ${TEST_LIBS} GTest::gmock GTest::gtest_main)
   target_include_directories(test_${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(test_${NAME} PRIVATE
-    LOOPMARK_SHARED_DIR="${LOOPMARK_SHARED_DIR}" LOOPMARK_BINARY="$<TARGET_FILE_DIR:loopmark>/loopmark")
+    LOOPMARK_SHARED_DIR="${LOOPMARK_SHARED_DIR}" LOOPMARK_TEST_DATA_DIR="${PROJECT_BINARY_DIR}/test_data"
+    LOOPMARK_BINARY="$<TARGET_FILE_DIR:loopmark>/loopmark")
   gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
 endfunction()
