@@ -38,6 +38,6 @@ function(loopmark_test_program NAME)
   target_include_directories(test_${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(test_${NAME} PRIVATE
     LOOPMARK_SHARED_DIR="${LOOPMARK_SHARED_DIR}" LOOPMARK_TEST_DATA_DIR="${PROJECT_BINARY_DIR}/test_data"
-    LOOPMARK_BINARY="$<TARGET_FILE_DIR:loopmark>/loopmark")
+    LOOPMARK_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LOOPMARK_BINARY="$<TARGET_FILE_DIR:loopmark>/loopmark")
   gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
 endfunction()

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "loopmark/registration/engine_options.hpp"
 
 namespace loopmark::app {
@@ -15,5 +17,8 @@ template <class Visitor>
 void describe(Visitor& v, AppOptions& o) {
   v.section("registration", o.registration, "global registration of two scans");
 }
+
+/// All options as commented YAML, which --config reads back: `loopmark config dump`, a run's config.yaml.
+std::string options_as_yaml(const AppOptions& options);
 
 }  // namespace loopmark::app

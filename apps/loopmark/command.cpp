@@ -6,21 +6,25 @@
 #include <exception>
 #include <map>
 
+#include "commands.hpp"
+#include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/interrupt.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
+#include "loopmark/core/version.hpp"
 
 namespace loopmark::app {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       // {"map", "turn a drive log into a loop-closed map", set_up_map},
+      {"config", "show or check the options", set_up_config},
   };
   return table;
 }
 
-AppOptions Globals::options() const { return {}; }
+AppOptions Globals::options() const { return config::load<AppOptions>(config_file, settings); }
 
 namespace {
 
@@ -40,10 +44,12 @@ int guarded(const Action& action) {
 }
 
 void add_globals(CLI::App& program, Globals& globals) {
-  program.add_option("--config", globals.config, "YAML file with options (see: loopmark config dump)");
-  program.add_option("--set", globals.settings, "one option, as section.name=value; may be repeated");
+  program.add_option("--config", globals.config_file, "YAML file with options (see: loopmark config dump)");
+  program.add_option("--set", globals.settings, "one option, as section.name=value; may be repeated")
+      ->allow_extra_args(false);
   program.add_option("--threads", globals.threads, "number of threads; 0: one for each core");
   program.add_flag("--quiet,-q", globals.quiet, "no progress lines");
+  program.set_version_flag("--version", std::string("loopmark ") + version(), "print the version");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace loopmark::app {
 
 /// Options that stand before or behind every subcommand.
 struct Globals {
-  std::filesystem::path config;       ///< --config FILE.yaml
+  std::filesystem::path config_file;  ///< --config FILE.yaml
   std::vector<std::string> settings;  ///< --set a.b=c
   std::size_t threads = 0;            ///< --threads N; 0: one a core
   bool quiet = false;                 ///< --quiet

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// What sets up each subcommand; the table in command.cpp names them.
+#pragma once
+
+#include "command.hpp"
+
+namespace loopmark::app {
+
+Action set_up_config(CLI::App& command, const Globals& globals);
+
+}  // namespace loopmark::app
