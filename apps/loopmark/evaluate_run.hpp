@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "loopmark/evaluation/result_folder.hpp"
+
+namespace loopmark::app {
+
+/// What stands on the command line of an experiment.
+struct EvaluateArguments {
+  std::filesystem::path set;
+  std::filesystem::path data;
+  std::filesystem::path output;
+  std::vector<std::string> algorithms;
+  std::vector<std::string> motions;
+  std::filesystem::path negatives;
+  std::filesystem::path perturb;
+  SuccessCriterion criterion;
+  std::size_t pairs_at_once = 0;
+  std::string shard = "1/1";
+};
+
+/// Runs the experiment, writes the result folder and prints the overview.
+int run_evaluate(const EvaluateArguments& arguments, const Globals& globals);
+
+/// Prints the overview of a result.
+void print_overview(const StoredResult& result);
+
+}  // namespace loopmark::app

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/evaluation/experiment.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "loopmark/core/error.hpp"
+#include "loopmark/core/files.hpp"
+#include "loopmark/core/interrupt.hpp"
+#include "loopmark/core/progress.hpp"
+#include "number_rows.hpp"
+
+namespace loopmark {
+namespace {
+
+std::string hash_of_set(const std::vector<RegistrationPair>& pairs) {
+  std::string text;
+  for (const RegistrationPair& pair : pairs) {
+    text += to_string(pair.key);
+    detail::append_motion(text, pair.T_target_source);
+    text += '\n';
+  }
+  return sha256_hex(text);
+}
+
+std::string hash_of_extras(const ExperimentTask& task) {
+  std::string text;
+  for (const PairKey& key : task.set.negatives) {
+    text += to_string(key) + '\n';
+  }
+  for (const Pose& pose : task.perturbations) {
+    detail::append_motion(text, pose);
+  }
+  return sha256_hex(text);
+}
+
+/// Recall so far, for the progress line.
+class RecallSoFar {
+ public:
+  void add(const Outcome& outcome) {
+    if (!outcome.negative) {
+      ++count_;
+      successes_ += outcome.success ? 1 : 0;
+    }
+  }
+  std::string text() const {
+    if (count_ == 0) {
+      return "";
+    }
+    char line[64];
+    std::snprintf(line, sizeof line, "recall %.1f %%", 100.0 * static_cast<double>(successes_) / static_cast<double>(count_));
+    return line;
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::size_t successes_ = 0;
+};
+
+/// One run: the pairs that are left, and the threads that take them.
+class Run {
+ public:
+  Run(const ExperimentTask& task, const AlgorithmList& algorithms, const ScanLoader& load, OutcomeWriter& writer)
+      : task_(task), algorithms_(algorithms), load_(load), writer_(writer), todo_(pairs_left()),
+        progress_("pairs", todo_.size()) {
+    for (const Outcome& outcome : writer.found()) {
+      recall_.add(outcome);
+    }
+  }
+
+  void all() {
+    const std::size_t workers = std::clamp<std::size_t>(task_.pairs_at_once, 1, std::max<std::size_t>(todo_.size(), 1));
+    std::vector<std::thread> threads;
+    for (std::size_t i = 1; i < workers; ++i) {
+      threads.emplace_back([this] { work(); });
+    }
+    work();
+    for (std::thread& thread : threads) {
+      thread.join();
+    }
+    if (error_) {
+      std::rethrow_exception(error_);
+    }
+    check_interrupt();
+  }
+
+ private:
+  std::vector<std::size_t> pairs_left() const {
+    std::vector<std::size_t> pairs;
+    for (std::size_t pair = 0; pair < task_.set.size(); ++pair) {
+      const bool left = std::any_of(algorithms_.begin(), algorithms_.end(),
+                                    [&](const auto& algorithm) { return !writer_.done(algorithm->name(), pair); });
+      if (task_.shard.holds(pair) && left) {
+        pairs.push_back(pair);
+      }
+    }
+    return pairs;
+  }
+
+  void work() {
+    while (!stop_ && !interrupt_requested()) {
+      const std::size_t next = next_.fetch_add(1);
+      if (next >= todo_.size()) {
+        return;
+      }
+      try {
+        one_pair(todo_[next]);
+      } catch (...) {
+        const std::scoped_lock lock(mutex_);
+        error_ = error_ ? error_ : std::current_exception();
+        stop_ = true;
+      }
+    }
+  }
+
+  void one_pair(std::size_t index) {
+    PairTask pair{index, task_.set.key(index), nullptr, nullptr};
+    PointCloud source;
+    PointCloud target;
+    if (needs_clouds(index)) {
+      source = load_(pair.key.session, pair.key.source);
+      target = load_(pair.key.target_session, pair.key.target);
+      if (index < task_.perturbations.size()) {
+        source = transformed(source, task_.perturbations[index]);
+      }
+      pair.source = &source;
+      pair.target = &target;
+    }
+    for (const auto& algorithm : algorithms_) {
+      if (!writer_.done(algorithm->name(), index) && !interrupt_requested()) {
+        record(judged(index, algorithm->name(), algorithm->answer(pair)));
+      }
+    }
+    const std::scoped_lock lock(mutex_);
+    progress_.add(1, recall_.text());
+  }
+
+  bool needs_clouds(std::size_t index) const {
+    return std::any_of(algorithms_.begin(), algorithms_.end(), [&](const auto& algorithm) {
+      return algorithm->needs_clouds() && !writer_.done(algorithm->name(), index);
+    });
+  }
+
+  Outcome judged(std::size_t index, const std::string& algorithm, Answer answer) const {
+    if (index >= task_.set.pairs.size()) {
+      return judge_negative(index, algorithm, std::move(answer));
+    }
+    return judge(index, algorithm, std::move(answer), task_.set.pairs[index].T_target_source, task_.criterion);
+  }
+
+  void record(const Outcome& outcome) {
+    writer_.add(outcome);
+    const std::scoped_lock lock(mutex_);
+    recall_.add(outcome);
+  }
+
+  const ExperimentTask& task_;
+  const AlgorithmList& algorithms_;
+  const ScanLoader& load_;
+  OutcomeWriter& writer_;
+  std::vector<std::size_t> todo_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  RecallSoFar recall_;
+  Progress progress_;
+};
+
+}  // namespace
+
+Experiment describe_experiment(const ExperimentTask& task, const AlgorithmList& algorithms) {
+  Experiment experiment;
+  experiment.set_name = task.set_name;
+  experiment.set_sha256 = hash_of_set(task.set.pairs);
+  experiment.extra_sha256 = hash_of_extras(task);
+  experiment.pairs = task.set.pairs.size();
+  experiment.negatives = task.set.negatives.size();
+  experiment.criterion = task.criterion;
+  experiment.settings = task.settings;
+  for (const auto& algorithm : algorithms) {
+    experiment.algorithms.push_back(algorithm->name());
+  }
+  return experiment;
+}
+
+void run_experiment(const ExperimentTask& task, const AlgorithmList& algorithms, const ScanLoader& load,
+                    const std::filesystem::path& folder) {
+  check(task.criterion);
+  OutcomeWriter writer(folder, describe_experiment(task, algorithms), task.set, task.shard);
+  Run(task, algorithms, load, writer).all();
+}
+
+}  // namespace loopmark
