@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Files with one point cloud each: KITTI .bin, PCD, PLY.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "loopmark/core/point_cloud.hpp"
+#include "loopmark/io/drive_log.hpp"
+
+namespace loopmark {
+
+/// A cloud as its file has it, without the points that make no sense.
+struct PointFile {
+  PointCloud cloud;                     ///< time_offset_s: as in the file, or since first_time_s
+  std::optional<double> first_time_s;   ///< where the file has absolute times: the earliest, seconds
+  DroppedPoints dropped;
+};
+
+/// Reads a .bin, .pcd.bin, .pcd (ascii, binary, binary_compressed) or .ply (ascii, binary little endian) file.
+/// Field names known: x y z, intensity (i, reflectivity), ring (laser_id, channel, line), t (time, timestamp,
+/// time_stamp, offset_time) in seconds, ms, us or ns, relative or since 1970 (told apart by their size).
+/// Throws DamagedScan naming the file, the byte or line and the problem.
+PointFile read_point_file(const std::filesystem::path& path, const LogOptions& options = {});
+
+/// Writes float32 x y z intensity (0 where the cloud has none), the layout of KITTI's velodyne folders.
+void write_bin(const std::filesystem::path& path, const PointCloud& cloud);
+
+/// Writes a binary PCD 0.7 with the channels that the cloud has: x y z [intensity] [ring U2] [t F4].
+void write_pcd(const std::filesystem::path& path, const PointCloud& cloud);
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+/// Writes a binary little-endian PLY with the channels that the cloud has; `colours` is empty or as long.
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud, const std::vector<Rgb>& colours = {});
+
+}  // namespace loopmark

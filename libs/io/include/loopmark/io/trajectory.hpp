@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Trajectory files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "loopmark/core/pose.hpp"
+
+namespace loopmark {
+
+/// Poses with their stamps; stamps_s is empty where the file has none.
+struct Trajectory {
+  std::vector<double> stamps_s;
+  std::vector<Pose> poses;
+};
+
+/// One line a pose: stamp x y z qx qy qz qw (the TUM format). Stamps with 6 decimals.
+std::string tum_text(const std::vector<double>& stamps_s, const std::vector<Pose>& poses);
+void write_tum(const std::filesystem::path& path, const std::vector<double>& stamps_s, const std::vector<Pose>& poses);
+
+/// One line a pose: the upper 3x4 of its matrix, row-major (KITTI's format).
+std::string kitti_text(const std::vector<Pose>& poses);
+void write_kitti(const std::filesystem::path& path, const std::vector<Pose>& poses);
+
+/// Reads either format, told apart by the number of columns (8 or 12). Lines that are empty or start with # are
+/// skipped. Throws InputError with the line that is wrong.
+Trajectory read_trajectory(const std::filesystem::path& path);
+
+/// Sets of poses with different stamps: the pose at `stamp_s`, interpolated between its neighbours. Outside
+/// the range the nearest end holds. `trajectory` is not empty and its stamps rise.
+Pose pose_at(const Trajectory& trajectory, double stamp_s);
+
+}  // namespace loopmark

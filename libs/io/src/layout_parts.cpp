@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "layout_parts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "loopmark/core/files.hpp"
+#include "loopmark/core/progress.hpp"
+#include "loopmark/io/trajectory.hpp"
+#include "text.hpp"
+
+namespace loopmark::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint64_t kLargestFrame = 100'000'000;
+
+bool by_name(const fs::path& a, const fs::path& b) {
+  return natural_less(a.filename().string(), b.filename().string());
+}
+
+/// The name without its known endings: "x.pcd.bin" -> "x".
+std::string stem_of(const fs::path& file) {
+  fs::path stem = file.stem();
+  return lower_case(stem.extension().string()) == ".pcd" ? stem.stem().string() : stem.string();
+}
+
+/// The numbers in the names when all are small whole numbers, else 0, 1, 2, ...
+std::vector<std::size_t> frame_numbers_of(const std::vector<fs::path>& files) {
+  std::vector<std::size_t> numbers;
+  for (const fs::path& file : files) {
+    const auto number = parse_whole(stem_of(file));
+    if (!number || *number > kLargestFrame || (!numbers.empty() && *number <= numbers.back())) {
+      break;
+    }
+    numbers.push_back(static_cast<std::size_t>(*number));
+  }
+  if (numbers.size() != files.size()) {
+    numbers.resize(files.size());
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      numbers[i] = i;
+    }
+  }
+  return numbers;
+}
+
+std::string rate_text(double rate_hz) {
+  char text[48];
+  std::snprintf(text, sizeof text, "rate %g Hz", rate_hz);
+  return text;
+}
+
+void stamps_by_names_or_rate(FileLogParts& parts) {
+  for (const fs::path& file : parts.files) {
+    const auto stamp = stamp_in_name(file);
+    if (!stamp) {
+      break;
+    }
+    parts.stamps_s.push_back(*stamp);
+  }
+  parts.info.stamps_given = parts.stamps_s.size() == parts.files.size();
+  parts.info.stamps_source = parts.info.stamps_given ? "file names" : rate_text(parts.options.rate_hz);
+  if (parts.info.stamps_given) {
+    return;
+  }
+  // Numbers with few gaps are scans that were dropped; other numbers say nothing about time.
+  const std::vector<std::size_t>& numbers = parts.frame_numbers;
+  const bool few_gaps = numbers.back() - numbers.front() < 2 * numbers.size();
+  parts.stamps_s.resize(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    parts.stamps_s[i] = static_cast<double>(few_gaps ? numbers[i] - numbers.front() : i) / parts.options.rate_hz;
+  }
+}
+
+void take_sweep(FileLogParts& parts, const fs::path& base) {
+  const SweepHint hint = read_sweep_hint(base / "sweep.txt");
+  parts.info.motion_compensated = hint.motion_compensated;
+  if (parts.options.rebuild_times == RebuildTimes::kNever) {
+    return;
+  }
+  parts.info.sweep = hint.model;
+  if (parts.options.rebuild_times != RebuildTimes::kAuto) {
+    SweepModel model = hint.model.value_or(SweepModel{});
+    model.clockwise = parts.options.rebuild_times == RebuildTimes::kClockwise;
+    model.period_s = hint.model ? model.period_s : 1.0 / parts.options.rate_hz;
+    parts.info.sweep = model;
+  }
+}
+
+double stamp_of_line(std::string_view line, const fs::path& file, std::size_t number) {
+  const std::vector<std::string_view> words = split_words(line, ',');
+  std::optional<double> stamp = parse_number(words.front());
+  if (!stamp) {
+    stamp = parse_date_time(line);
+  }
+  if (!stamp || !std::isfinite(*stamp)) {
+    throw InputError(file.string(), std::to_string(number), "'" + std::string(line) + "' is no time");
+  }
+  return *stamp > 1e17 ? *stamp * 1e-9 : *stamp;
+}
+
+}  // namespace
+
+std::string point_file_kind(const fs::path& file) {
+  const std::string extension = lower_case(file.extension().string());
+  return extension == ".bin" || extension == ".pcd" || extension == ".ply" ? extension.substr(1) : "";
+}
+
+std::vector<fs::path> list_point_files(const fs::path& folder) {
+  std::map<std::string, std::vector<fs::path>> by_kind;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string kind = point_file_kind(it->path());
+    if (!kind.empty() && it->path().filename().string().front() != '.' && it->is_regular_file(error)) {
+      by_kind[kind].push_back(it->path());
+    }
+  }
+  std::vector<fs::path> files;
+  for (auto& [kind, some] : by_kind) {
+    if (some.size() > files.size()) {
+      files.swap(some);
+    }
+  }
+  if (by_kind.size() > 1) {
+    log(Severity::kWarning, folder.string() + ": point files of several kinds; only the ." +
+                                point_file_kind(files.front()) + " files are read");
+  }
+  std::sort(files.begin(), files.end(), by_name);
+  return files;
+}
+
+std::vector<fs::path> list_folders(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->is_directory(error)) {
+      folders.push_back(it->path());
+    }
+  }
+  std::sort(folders.begin(), folders.end(), by_name);
+  return folders;
+}
+
+FileLogParts parts_of_files(std::vector<fs::path> files, const fs::path& base, const LogOptions& options) {
+  FileLogParts parts;
+  parts.files = std::move(files);
+  parts.options = options;
+  parts.frame_numbers = frame_numbers_of(parts.files);
+  take_sweep(parts, base);
+  stamps_by_names_or_rate(parts);
+  return parts;
+}
+
+std::optional<std::vector<std::size_t>> rows_of_scans(const FileLogParts& parts, std::size_t rows) {
+  std::vector<std::size_t> row_of_scan(parts.files.size());
+  const bool in_order = rows == parts.files.size();
+  if (!in_order && parts.frame_numbers.back() >= rows) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < row_of_scan.size(); ++i) {
+    row_of_scan[i] = in_order ? i : parts.frame_numbers[i];
+  }
+  // Scans numbered from 0 without gaps do not say which rows of a longer table are theirs: the first ones.
+  return row_of_scan;
+}
+
+void take_stamps(FileLogParts& parts, const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    return;
+  }
+  const std::string text = read_file(file);
+  std::vector<double> stamps;
+  std::size_t number = 0;
+  for (const std::string_view line : split_lines(text)) {
+    ++number;
+    if (!split_words(line).empty() && line.front() != '#') {
+      stamps.push_back(stamp_of_line(line, file, number));
+    }
+  }
+  const auto rows = rows_of_scans(parts, stamps.size());
+  if (!rows) {
+    throw InputError(file.string(), "",
+                     std::to_string(stamps.size()) + " times for " + std::to_string(parts.files.size()) + " scans",
+                     "give one line a scan, or move the file away and state the rate");
+  }
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    parts.stamps_s[i] = stamps[(*rows)[i]];
+  }
+  parts.info.stamps_given = true;
+  parts.info.stamps_source = file.filename().string();
+}
+
+void take_truth(FileLogParts& parts, const fs::path& file, const std::optional<Pose>& T_camera_lidar) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    return;
+  }
+  const std::vector<Pose> poses = read_trajectory(file).poses;
+  const auto rows = rows_of_scans(parts, poses.size());
+  if (!rows) {
+    parts.info.truth_problem = file.string() + ": " + std::to_string(poses.size()) + " poses for " +
+                               std::to_string(parts.files.size()) + " scans; they are not used";
+    log(Severity::kWarning, parts.info.truth_problem);
+    return;
+  }
+  for (const std::size_t row : *rows) {
+    const Pose& pose = poses[row];
+    parts.truth.push_back(T_camera_lidar ? T_camera_lidar->inverse() * pose * *T_camera_lidar : pose);
+  }
+  parts.info.truth_given = true;
+  parts.info.truth_source = file.string();
+}
+
+void take_truth_interpolated(FileLogParts& parts, const std::vector<double>& stamps_s, const std::vector<Pose>& poses,
+                             const std::string& source) {
+  const Trajectory trajectory{stamps_s, poses};
+  if (poses.empty() || !std::is_sorted(stamps_s.begin(), stamps_s.end())) {
+    parts.info.truth_problem = source + ": no poses, or their times do not rise; they are not used";
+    log(Severity::kWarning, parts.info.truth_problem);
+    return;
+  }
+  for (const double stamp : parts.stamps_s) {
+    parts.truth.push_back(pose_at(trajectory, stamp));
+  }
+  parts.info.truth_given = true;
+  parts.info.truth_source = source;
+}
+
+std::optional<double> parse_date_time(std::string_view text) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, read = 0;
+  double second = 0.0;
+  const std::string plain(text);
+  const char* const kForms[] = {"%4d-%2d-%2d %2d:%2d:%lf%n", "%4d-%2d-%2dT%2d:%2d:%lf%n"};
+  for (const char* form : kForms) {
+    read = 0;
+    if (std::sscanf(plain.c_str(), form, &year, &month, &day, &hour, &minute, &second, &read) == 6 && read > 0) {
+      break;
+    }
+    read = 0;
+  }
+  int whole_second = 0, millisecond = 0;
+  if (read == 0 && std::sscanf(plain.c_str(), "%4d-%2d-%2d-%2d-%2d-%2d-%3d%n", &year, &month, &day, &hour, &minute,
+                               &whole_second, &millisecond, &read) == 7) {
+    second = whole_second + millisecond * 1e-3;
+  }
+  const auto date = std::chrono::year(year) / month / day;
+  if (read == 0 || static_cast<std::size_t>(read) != plain.size() || !date.ok()) {
+    return std::nullopt;
+  }
+  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
+  return static_cast<double>(days) * 86400.0 + hour * 3600.0 + minute * 60.0 + second;
+}
+
+std::optional<double> stamp_in_name(const fs::path& file) {
+  const std::string stem = stem_of(file);
+  if (const auto date = parse_date_time(stem)) {
+    return date;
+  }
+  if (const auto whole = parse_whole(stem)) {
+    if (stem.size() < 16 || stem.size() > 19) {
+      return std::nullopt;
+    }
+    return static_cast<double>(*whole) * (stem.size() >= 18 ? 1e-9 : 1e-6);
+  }
+  const auto seconds = parse_number(stem);
+  return seconds && *seconds > 1e8 && *seconds < 1e11 ? seconds : std::nullopt;
+}
+
+}  // namespace loopmark::io
