@@ -33,9 +33,9 @@ struct PoseGraphEdge {
 /// Poses and constraints. Pieces (what odometry edges connect) need not share a frame at the start: they are
 /// placed by the loops between them, and those that find no place stay where they are.
 struct PoseGraph {
-  std::vector<Pose> T_map_node;        ///< initial poses; right up to one rigid motion within each piece
+  std::vector<Pose> T_map_node;  ///< initial poses; right up to one rigid motion within each piece
   std::vector<PoseGraphEdge> edges;
-  std::vector<std::size_t> anchors;    ///< nodes that do not move; empty: node 0
+  std::vector<std::size_t> anchors;  ///< nodes that do not move; empty: node 0
 };
 
 /// What became of a constraint, and why.
@@ -51,31 +51,31 @@ std::string to_string(EdgeVerdict verdict);
 
 struct EdgeReport {
   EdgeVerdict verdict = EdgeVerdict::kAccepted;
-  double weight = 1.0;                     ///< final weight in [0, 1]
-  Vector6d residual = Vector6d::Zero();    ///< log(T_map_from^-1 * T_map_to * T_from_to^-1) at the solution
-  double chi2 = 0.0;                       ///< residual^T * information * residual
-  std::size_t agrees_with = 0;             ///< loops of its group that are pairwise consistent with it
-  std::size_t group_size = 0;              ///< loops between the same two pieces (or within the same piece)
+  double weight = 1.0;                   ///< final weight in [0, 1]
+  Vector6d residual = Vector6d::Zero();  ///< log(T_map_from^-1 * T_map_to * T_from_to^-1) at the solution
+  double chi2 = 0.0;                     ///< residual^T * information * residual
+  std::size_t agrees_with = 0;           ///< loops of its group that are pairwise consistent with it
+  std::size_t group_size = 0;            ///< loops between the same two pieces (or within the same piece)
 };
 
 /// Nodes that accepted constraints connect, in increasing order. Poses of different components have nothing
 /// to do with one another.
 struct PoseGraphComponent {
   std::vector<std::size_t> nodes;
-  bool anchored = false;   ///< holds an anchor; else its first node stands for one
+  bool anchored = false;  ///< holds an anchor; else its first node stands for one
 };
 
 struct PoseGraphSolution {
   std::vector<Pose> T_map_node;
-  std::vector<EdgeReport> edges;              ///< one for each edge of the graph, in order
-  std::vector<PoseGraphComponent> components; ///< anchored ones first, then by first node
-  std::vector<std::size_t> component_of;      ///< for each node
-  std::size_t robust_steps = 0;               ///< solves done by graduated non-convexity
-  std::size_t iterations = 0;                 ///< Levenberg-Marquardt iterations in all
-  double initial_cost = 0.0;                  ///< half the sum of weighted chi2 of accepted edges, before the last solve
-  double final_cost = 0.0;                    ///< the same after it
-  bool converged = false;                     ///< the last solve converged
-  std::string message;                        ///< one line on how it ended
+  std::vector<EdgeReport> edges;               ///< one for each edge of the graph, in order
+  std::vector<PoseGraphComponent> components;  ///< anchored ones first, then by first node
+  std::vector<std::size_t> component_of;       ///< for each node
+  std::size_t robust_steps = 0;                ///< solves done by graduated non-convexity
+  std::size_t iterations = 0;                  ///< Levenberg-Marquardt iterations in all
+  double initial_cost = 0.0;  ///< half the sum of weighted chi2 of accepted edges, before the last solve
+  double final_cost = 0.0;    ///< the same after it
+  bool converged = false;     ///< the last solve converged
+  std::string message;        ///< one line on how it ended
   double seconds = 0.0;
 };
 

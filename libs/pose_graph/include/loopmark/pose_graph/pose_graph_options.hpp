@@ -10,18 +10,19 @@ namespace loopmark {
 
 /// How the pose graph is solved and when a loop is doubted.
 struct PoseGraphOptions {
-  double inlier_chi2 = 22.46;          ///< a loop above it is an outlier; 22.46: 99.9 % quantile, 6 degrees of freedom
-  double consistency_chi2 = 22.46;     ///< a cycle of two loops above it is inconsistent
-  bool consistency_check = true;       ///< pairwise consistency before the robust optimisation
-  bool robust = true;                  ///< graduated non-convexity on loops; off: every loop is believed
-  std::size_t min_links = 2;           ///< agreeing loops needed to join two pieces that odometry does not connect
-  std::size_t max_iterations = 100;    ///< of the last Levenberg-Marquardt solve
-  double convexity_step = 1.6;         ///< factor by which each robust step is less convex than the one before
+  double inlier_chi2 = 22.46;        ///< a loop above it is an outlier; 22.46: 99.9 % quantile, 6 degrees of freedom
+  double consistency_chi2 = 22.46;   ///< a cycle of two loops above it is inconsistent
+  bool consistency_check = true;     ///< pairwise consistency before the robust optimisation
+  bool robust = true;                ///< graduated non-convexity on loops; off: every loop is believed
+  std::size_t min_links = 2;         ///< agreeing loops needed to join two pieces that odometry does not connect
+  std::size_t max_iterations = 100;  ///< of the last Levenberg-Marquardt solve
+  double convexity_step = 1.6;       ///< factor by which each robust step is less convex than the one before
 };
 
 template <class Visitor>
 void describe(Visitor& v, PoseGraphOptions& o) {
-  v.field("inlier_chi2", o.inlier_chi2, "a loop above it is an outlier; 22.46: 99.9 % quantile of 6 degrees of freedom");
+  v.field("inlier_chi2", o.inlier_chi2,
+          "a loop above it is an outlier; 22.46: 99.9 % quantile of 6 degrees of freedom");
   v.field("consistency_chi2", o.consistency_chi2, "a cycle of two loops above it is inconsistent");
   v.field("consistency_check", o.consistency_check, "pairwise consistency before the robust optimisation");
   v.field("robust", o.robust, "graduated non-convexity on loops; off: every loop is believed");
