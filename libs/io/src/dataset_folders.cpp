@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Data sets whose drives are folders: KITTI odometry, Apollo-SouthBay, MulRan, any folder of logs.
+#include <array>
+#include <map>
+
+#include "dataset_layouts.hpp"
+#include "layout_parts.hpp"
+#include "loopmark/core/files.hpp"
+#include "text.hpp"
+
+namespace loopmark::io {
+namespace fs = std::filesystem;
+namespace {
+
+using Parts = Dataset::Parts;
+
+/// The drives of Apollo-SouthBay in the order in which the published sets number them.
+constexpr std::array kApolloDrives = {
+    "MapData/HighWay237/2018-10-05",
+    "MapData/SunnyvaleBigloop/Caspian_and_Geneva/2017-12-13",
+    "MapData/SunnyvaleBigloop/Borrgas/2017-12-13",
+    "MapData/SunnyvaleBigloop/Java/2017-12-13",
+    "MapData/SunnyvaleBigloop/Mathilda_Moffet/2017-12-28",
+    "MapData/SunnyvaleBigloop/Crossman/2017-12-13",
+    "MapData/SunnyvaleBigloop/Mathilda_Carribean/2017-12-14",
+    "MapData/SunnyvaleBigloop/Bordeaux/2017-12-13",
+    "MapData/MathildaAVE/2018-09-25",
+    "MapData/SanJoseDowntown/2018-10-02",
+    "MapData/BaylandsToSeafood/2018-09-26",
+    "MapData/ColumbiaPark/2018-09-21/2",
+    "MapData/ColumbiaPark/2018-09-21/4",
+    "MapData/ColumbiaPark/2018-09-21/1",
+    "MapData/ColumbiaPark/2018-09-21/3",
+    "TrainData/HighWay237/2018-10-12",
+    "TrainData/MathildaAVE/2018-10-04",
+    "TrainData/SanJoseDowntown/2018-10-11",
+    "TrainData/BaylandsToSeafood/2018-10-05",
+    "TrainData/ColumbiaPark/2018-10-03",
+    "TestData/HighWay237/2018-10-12",
+    "TestData/SunnyvaleBigloop/2018-10-03",
+    "TestData/MathildaAVE/2018-10-12",
+    "TestData/SanJoseDowntown/2018-10-11/2",
+    "TestData/SanJoseDowntown/2018-10-11/1",
+    "TestData/BaylandsToSeafood/2018-10-12",
+    "TestData/ColumbiaPark/2018-10-11",
+};
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+Parts parts_of(std::string layout, std::string description, const fs::path& root, const DatasetOptions& options) {
+  Parts parts;
+  parts.layout = std::move(layout);
+  parts.description = std::move(description);
+  parts.root = root;
+  parts.open = [log = options.log](const SessionInfo& session) { return open_log(session.path, log); };
+  return parts;
+}
+
+/// Where the drives of Apollo-SouthBay's archives lie: as on the list, or each archive unpacked in a folder of its own
+/// (AREA/Apollo-SourthBay/TestData/AREA/...).
+fs::path apollo_drive(const fs::path& root, const std::string& drive) {
+  for (const fs::path& base : {root, root / "Apollo-SouthBay", root / "Apollo-SourthBay"}) {
+    if (is_folder(base / drive)) {
+      return base / drive;
+    }
+  }
+  for (const fs::path& area : list_folders(root)) {
+    for (const char* const below : {"", "Apollo-SouthBay", "Apollo-SourthBay"}) {
+      if (is_folder(area / below / drive)) {
+        return area / below / drive;
+      }
+    }
+  }
+  return root / drive;
+}
+
+/// True when a drive log can be opened here; damaged ones count, so that their problem is told when they are used.
+bool looks_like_log(const fs::path& path, const LogOptions& options) {
+  try {
+    return open_log(path, options) != nullptr;
+  } catch (const InputError& error) {
+    return std::string(error.what()).find("no drive log found") == std::string::npos &&
+           !list_point_files(path / "velodyne").empty();
+  }
+}
+
+}  // namespace
+
+std::optional<Parts> find_kitti_odometry(const fs::path& root, const DatasetOptions& options) {
+  for (const fs::path& folder : {root / "sequences", root / "dataset" / "sequences", root}) {
+    Parts parts = parts_of("kitti-odometry",
+                           "KITTI odometry: clouds in the frame of the Velodyne, motion-compensated, 10 Hz, frames "
+                           "from 0, session = sequence",
+                           root, options);
+    for (const fs::path& drive : list_folders(folder)) {
+      const std::string name = drive.filename().string();
+      if (const auto number = parse_whole(name); number && name.size() == 2 && is_folder(drive / "velodyne")) {
+        parts.sessions.push_back({static_cast<int>(*number), name, drive, true});
+      }
+    }
+    if (!parts.sessions.empty()) {
+      return parts;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Parts> find_apollo_southbay(const fs::path& root, const DatasetOptions& options) {
+  Parts parts = parts_of("apollo-southbay",
+                         "Apollo-SouthBay: clouds in the frame of the HDL-64E, motion-compensated, 10 Hz, frames from "
+                         "1, sessions 0 to 26 in the order of the published sets (test: 20 to 26)",
+                         root, options);
+  bool any = false;
+  for (std::size_t i = 0; i < kApolloDrives.size(); ++i) {
+    const fs::path drive = apollo_drive(root, kApolloDrives[i]);
+    const bool present = is_folder(drive / "pcds");
+    any = any || present;
+    parts.sessions.push_back({static_cast<int>(i), kApolloDrives[i], drive, present});
+  }
+  return any ? std::optional(std::move(parts)) : std::nullopt;
+}
+
+std::optional<Parts> find_mulran(const fs::path& root, const DatasetOptions& options) {
+  Parts parts = parts_of("mulran",
+                         "MulRan: clouds in the frame of the Ouster, 10 Hz, frames from 0 in order of time, sessions "
+                         "in order of the drives' names",
+                         root, options);
+  for (const fs::path& drive : list_folders(root)) {
+    if (is_folder(drive / "Ouster") || is_folder(drive / "sensor_data" / "Ouster")) {
+      parts.sessions.push_back({static_cast<int>(parts.sessions.size()), drive.filename().string(), drive, true});
+    }
+  }
+  return parts.sessions.empty() ? std::nullopt : std::optional(std::move(parts));
+}
+
+std::optional<Parts> find_logs(const fs::path& root, const DatasetOptions& options) {
+  std::error_code error;
+  if (fs::exists(root / "sessions.txt", error)) {
+    return logs_of_sessions_file(root, root / "sessions.txt", options);
+  }
+  Parts parts = parts_of("logs", "drive logs, sessions in order of their names, frames by the numbers of their files",
+                         root, options);
+  if (looks_like_log(root, options.log)) {
+    parts.sessions.push_back({0, root.filename().string(), root, true});
+    return parts;
+  }
+  for (const fs::path& drive : list_folders(root)) {
+    if (looks_like_log(drive, options.log)) {
+      parts.sessions.push_back({static_cast<int>(parts.sessions.size()), drive.filename().string(), drive, true});
+    }
+  }
+  return parts.sessions.empty() ? std::nullopt : std::optional(std::move(parts));
+}
+
+Parts logs_of_sessions_file(const fs::path& root, const fs::path& file, const DatasetOptions& options) {
+  Parts parts = parts_of("logs", "drive logs named by " + file.string() + ", frames by the numbers of their files",
+                         root, options);
+  const std::string text = read_file(file);
+  std::map<int, std::size_t> seen;
+  std::size_t line_number = 0;
+  for (const std::string_view line : split_lines(text)) {
+    ++line_number;
+    const auto words = split_words(line);
+    if (words.empty() || words[0].front() == '#') {
+      continue;
+    }
+    const auto number = parse_whole(words[0]);
+    if (!number && line_number == 1) {
+      continue;  // the header
+    }
+    const std::string place = std::to_string(line_number);
+    if (!number || *number > 1'000'000 || words.size() < 2) {
+      throw InputError(file.string(), place, "not a session number and the name of a log");
+    }
+    const auto session = static_cast<int>(*number);
+    if (const auto [it, fresh] = seen.emplace(session, line_number); !fresh) {
+      throw InputError(file.string(), place, "session " + std::to_string(session) + " is already on line " +
+                                                 std::to_string(it->second));
+    }
+    // Names may hold spaces: everything from the second word on.
+    const std::string name(line.substr(static_cast<std::size_t>(words[1].data() - line.data())));
+    std::error_code error;
+    parts.sessions.push_back({session, name, root / name, fs::exists(root / name, error)});
+  }
+  if (parts.sessions.empty()) {
+    throw InputError(file.string(), "", "names no sessions");
+  }
+  return parts;
+}
+
+}  // namespace loopmark::io
