@@ -19,6 +19,7 @@ namespace loopmark::app {
 const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       // {"map", "turn a drive log into a loop-closed map", set_up_map},
+      {"simulate", "make a drive log with exact truth", set_up_simulate},
       {"evaluate", "registration experiments on sets of frame pairs", set_up_evaluate},
       {"config", "show or check the options", set_up_config},
   };

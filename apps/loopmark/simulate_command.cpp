@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "command.hpp"
+#include "commands.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/simulation/drive_writer.hpp"
 
