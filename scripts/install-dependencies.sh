@@ -21,7 +21,7 @@ TEXT
 # Package and the upstream version it was tested with (Debian 12). On Debian 12 that version is asked for by name;
 # on another release the release's own version is taken.
 build_tools='
-build-essential=12.*       cmake=3.25.*          ninja-build=1.11.*     ccache=4.8.*
+build-essential=12.*       cmake=3.25.*          ninja-build=1.11.*     ccache=4.8*
 git=1:2.*                  pkg-config=1.8.*      xz-utils=5.4.*         python3=3.11.*
 file=1:5.*                 dpkg-dev=1.21.*       ca-certificates=*
 '
