@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -69,6 +70,7 @@ class Run {
         progress_("pairs", todo_.size()) {
     for (const Outcome& outcome : writer.found()) {
       recall_.add(outcome);
+      found_[outcome.pair].emplace(outcome.algorithm, outcome.answer);
     }
   }
 
@@ -118,30 +120,36 @@ class Run {
   }
 
   void one_pair(std::size_t index) {
-    PairTask pair{index, task_.set.key(index), nullptr, nullptr};
-    PointCloud source;
-    PointCloud target;
-    if (needs_clouds(index)) {
-      source = load_(pair.key.session, pair.key.source);
-      target = load_(pair.key.target_session, pair.key.target);
-      if (index < task_.perturbations.size()) {
-        source = transformed(source, task_.perturbations[index]);
-      }
-      pair.source = &source;
-      pair.target = &target;
+    std::map<std::string, Answer> answers;
+    const auto before = found_.find(index);
+    if (before != found_.end()) {
+      answers = before->second;
     }
+    const std::unique_ptr<PairScans> scans = needs_scans(index) ? load_scans(index) : nullptr;
     for (const auto& algorithm : algorithms_) {
-      if (!writer_.done(algorithm->name(), index) && !interrupt_requested()) {
-        record(judged(index, algorithm->name(), algorithm->answer(pair)));
+      if (!writer_.done(algorithm->name(), index)) {
+        check_interrupt();
+        Answer answer = algorithm->answer({index, task_.set.key(index), scans.get(), &answers});
+        answers[algorithm->name()] = answer;
+        record(judged(index, algorithm->name(), std::move(answer)));
       }
     }
     const std::scoped_lock lock(mutex_);
     progress_.add(1, recall_.text());
   }
 
-  bool needs_clouds(std::size_t index) const {
+  std::unique_ptr<PairScans> load_scans(std::size_t index) const {
+    const PairKey& key = task_.set.key(index);
+    PointCloud source = load_(key.session, key.source);
+    if (index < task_.perturbations.size()) {
+      source = transformed(source, task_.perturbations[index]);
+    }
+    return std::make_unique<PairScans>(std::move(source), load_(key.target_session, key.target));
+  }
+
+  bool needs_scans(std::size_t index) const {
     return std::any_of(algorithms_.begin(), algorithms_.end(), [&](const auto& algorithm) {
-      return algorithm->needs_clouds() && !writer_.done(algorithm->name(), index);
+      return algorithm->needs_scans() && !writer_.done(algorithm->name(), index);
     });
   }
 
@@ -168,6 +176,7 @@ class Run {
   std::mutex mutex_;
   std::exception_ptr error_;
   RecallSoFar recall_;
+  std::map<std::size_t, std::map<std::string, Answer>> found_;
   Progress progress_;
 };
 
@@ -181,9 +190,13 @@ Experiment describe_experiment(const ExperimentTask& task, const AlgorithmList& 
   experiment.pairs = task.set.pairs.size();
   experiment.negatives = task.set.negatives.size();
   experiment.criterion = task.criterion;
-  experiment.settings = task.settings;
   for (const auto& algorithm : algorithms) {
+    const auto& names = experiment.algorithms;
+    if (std::find(names.begin(), names.end(), algorithm->name()) != names.end()) {
+      throw InputError("two algorithms are called " + algorithm->name() + "; give them names (NAME=...)");
+    }
     experiment.algorithms.push_back(algorithm->name());
+    experiment.settings.push_back(algorithm->settings());
   }
   return experiment;
 }

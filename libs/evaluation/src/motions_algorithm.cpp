@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loopmark/evaluation/algorithm.hpp"
-
 #include <utility>
+
+#include "loopmark/core/files.hpp"
+#include "loopmark/evaluation/algorithm.hpp"
+#include "number_rows.hpp"
 
 namespace loopmark {
 namespace {
@@ -12,7 +14,15 @@ class MotionsAlgorithm : public RegistrationAlgorithm {
   MotionsAlgorithm(std::string name, std::vector<Pose> motions) : name_(std::move(name)), motions_(std::move(motions)) {}
 
   const std::string& name() const override { return name_; }
-  bool needs_clouds() const override { return false; }
+  bool needs_scans() const override { return false; }
+
+  std::string settings() const override {
+    std::string text;
+    for (const Pose& motion : motions_) {
+      detail::append_motion(text, motion);
+    }
+    return "motions " + sha256_hex(text);
+  }
 
   Answer answer(const PairTask& task) override {
     Answer answer;

@@ -135,7 +135,7 @@ Experiment experiment_from_json(const std::string& text, const std::string& file
     experiment.negatives = json.at("negatives").get<std::size_t>();
     experiment.criterion = {json.at("max_rotation_deg").get<double>(), json.at("max_translation_m").get<double>()};
     experiment.algorithms = json.at("algorithms").get<std::vector<std::string>>();
-    experiment.settings = json.at("settings").get<std::string>();
+    experiment.settings = json.at("settings").get<std::vector<std::string>>();
     return experiment;
   });
 }

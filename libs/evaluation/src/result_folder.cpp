@@ -147,6 +147,20 @@ void require_complete(const fs::path& folder, const std::map<OutcomeKey, Outcome
   }
 }
 
+/// Adds the algorithms that are not there yet. Throws InputError when one name stands for two settings.
+void add_algorithms(Experiment& all, const Experiment& more) {
+  for (std::size_t i = 0; i < more.algorithms.size(); ++i) {
+    const auto place = std::find(all.algorithms.begin(), all.algorithms.end(), more.algorithms[i]);
+    if (place == all.algorithms.end()) {
+      all.algorithms.push_back(more.algorithms[i]);
+      all.settings.push_back(more.settings[i]);
+    } else if (all.settings[static_cast<std::size_t>(place - all.algorithms.begin())] != more.settings[i]) {
+      throw InputError("two results have an algorithm " + more.algorithms[i] + " with different settings: " +
+                       more.settings[i]);
+    }
+  }
+}
+
 }  // namespace
 
 bool Experiment::same_task(const Experiment& other) const {
@@ -227,12 +241,7 @@ StoredResult merge_results(const std::vector<fs::path>& folders, const fs::path&
       throw InputError(folder.string(), "", "another set or criterion than " + folders.front().string(),
                        "only results of the same pairs can be joined");
     }
-    for (const std::string& algorithm : experiment.algorithms) {
-      auto& names = merged.experiment.algorithms;
-      if (std::find(names.begin(), names.end(), algorithm) == names.end()) {
-        names.push_back(algorithm);
-      }
-    }
+    add_algorithms(merged.experiment, experiment);
     outcomes.merge(read_outcomes(folder));
   }
   require_complete(folders.front(), outcomes, merged.experiment, merged.set);

@@ -3,7 +3,7 @@
 /// What competes in an experiment.
 #pragma once
 
-#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,29 +13,52 @@
 
 namespace loopmark {
 
-/// One pair as an algorithm gets it. The clouds are null where the experiment has no data (motions files only).
-struct PairTask {
-  std::size_t index = 0;                   ///< place in the set; negatives follow behind the positives
-  PairKey key;
-  const PointCloud* source = nullptr;      ///< perturbed already, where the experiment perturbs
-  const PointCloud* target = nullptr;
+/// The two scans of a pair, and what several algorithms need of them; made when first asked for. One thread.
+class PairScans {
+ public:
+  PairScans(PointCloud source, PointCloud target) : source_(std::move(source)), target_(std::move(target)) {}
+
+  const PointCloud& source() const { return source_; }
+  const PointCloud& target() const { return target_; }
+  /// One original point a voxel of 0.3 m (paper, appendix "Implementation Details").
+  const PointCloud& small_source();
+  const PointCloud& small_target();
+
+ private:
+  PointCloud source_, target_, small_source_, small_target_;
 };
 
-/// Finds the motion between two scans. Several threads call answer() at the same time.
+/// One pair as an algorithm gets it.
+struct PairTask {
+  std::size_t index = 0;                          ///< place in the set; negatives follow behind the positives
+  PairKey key;
+  PairScans* scans = nullptr;                     ///< null where no algorithm needs scans; perturbed already
+  const std::map<std::string, Answer>* earlier = nullptr;  ///< answers to this pair of the algorithms before
+};
+
+/// Finds the motion between two scans. Several threads call answer() at the same time, for different pairs.
 class RegistrationAlgorithm {
  public:
   virtual ~RegistrationAlgorithm() = default;
   virtual const std::string& name() const = 0;
-  virtual bool needs_clouds() const { return true; }
+  /// Text that changes when the answers may change (options, a command line, a file's hash).
+  virtual std::string settings() const = 0;
+  virtual bool needs_scans() const { return true; }
   virtual Answer answer(const PairTask& task) = 0;
 };
 
 using AlgorithmList = std::vector<std::unique_ptr<RegistrationAlgorithm>>;
 
-/// The registration engine ("engine").
-std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const EngineOptions& options);
+/// The registration engine, called "engine".
+std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const EngineOptions& options, std::string settings);
 
 /// Answers that were found before: one motion a pair. Pairs behind the last (negatives) fail.
 std::unique_ptr<RegistrationAlgorithm> make_motions_algorithm(std::string name, std::vector<Pose> motions);
+
+/// The answers of an algorithm earlier in the list, refined: "BASE+METHOD". Methods: refinement_methods().
+std::unique_ptr<RegistrationAlgorithm> make_refined_algorithm(const std::string& base, const std::string& method);
+
+/// Names of the refinements, the paper's three first.
+std::vector<std::string> refinement_methods();
 
 }  // namespace loopmark

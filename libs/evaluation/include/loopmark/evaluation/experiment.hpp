@@ -23,14 +23,13 @@ struct ExperimentTask {
   SuccessCriterion criterion;
   Shard shard;
   std::size_t pairs_at_once = 1;      ///< pairs worked on at the same time
-  std::string settings;               ///< text that stands for the algorithms' settings
 };
 
 /// The identity of the task, for experiment.json.
 Experiment describe_experiment(const ExperimentTask& task, const AlgorithmList& algorithms);
 
 /// Runs what is missing of the task's shard and records it in `folder`. `load` may be empty when no algorithm
-/// needs clouds. Throws Interrupted when the user stops it: what is done is kept.
+/// needs scans. Throws Interrupted when the user stops it: what is done is kept.
 void run_experiment(const ExperimentTask& task, const AlgorithmList& algorithms, const ScanLoader& load,
                     const std::filesystem::path& folder);
 

@@ -25,7 +25,7 @@ struct Experiment {
   std::size_t negatives = 0;
   SuccessCriterion criterion;
   std::vector<std::string> algorithms;   ///< names, in the order of the tables
-  std::string settings;                  ///< algorithm settings that change answers, as text
+  std::vector<std::string> settings;     ///< of each algorithm: what changes its answers, as text
 
   bool same_task(const Experiment& other) const;
 };
