@@ -19,22 +19,50 @@ Examples:
       how good are motions that somebody found (no scans are needed)
   loopmark evaluate pairs.txt --data LOGS --negatives negatives.txt -o RESULT
       the registration engine on the pairs of a set; sessions.txt beside the set names the log of each session
-  loopmark evaluate pairs.txt --data LOGS --algorithms engine,"command:python3 mine.py" -o RESULT
-      beside a program of yours that speaks the line protocol (docs/evaluation.md)
+  loopmark evaluate pairs.txt --data LOGS --algorithms engine --command "mine=python3 mine.py" --refine icp -o RESULT
+      beside a program of yours that speaks the line protocol (docs/evaluation.md), each with and without ICP
+  loopmark evaluate merge RESULT
+      makes the tables when all shards (--shard 1/4 ... 4/4) are done
 )";
 
-void add_run_options(CLI::App& command, EvaluateArguments& a) {
+void add_input_options(CLI::App& command, EvaluateArguments& a) {
   command.add_option("set", a.set, "pairs file in the published format (27 columns)");
   command.add_option("--data", a.data, "folder with the scans: a data set, or the logs that sessions.txt names");
+  command.add_option("--sessions", a.sessions, "lines 'NUMBER LOG'; default: sessions.txt beside the set");
   command.add_option("-o,--output", a.output, "result folder; an unfinished one of the same experiment is resumed");
-  command.add_option("--algorithms", a.algorithms, "what competes, separated by commas")->delimiter(',');
-  command.add_option("--motions", a.motions, "motions somebody found, 19 columns; NAME=FILE or FILE; may be repeated");
   command.add_option("--negatives", a.negatives, "pairs of different places: session_i i session_j j");
   command.add_option("--perturb", a.perturb, "a motion for the source points of every pair, 19 columns");
+}
+
+void add_run_options(CLI::App& command, EvaluateArguments& a) {
+  command.add_option("--algorithms", a.algorithms, "what competes, separated by commas: engine")->delimiter(',');
+  command.add_option("--motions", a.motions, "motions somebody found, 19 columns: FILE or NAME=FILE; may be repeated");
+  command.add_option("--command", a.commands, "a program: COMMAND or NAME=COMMAND; may be repeated");
+  command.add_option("--refine", a.refine, "each algorithm once more with: icp, bbr; separated by commas")->delimiter(',');
+  command.add_option("--time-limit", a.time_limit_s, "of a program for one pair, seconds (30)");
   command.add_option("--max-rotation", a.criterion.max_rotation_deg, "success: RE below this, degrees (5)");
   command.add_option("--max-translation", a.criterion.max_translation_m, "success: TE below this, metres (0.6)");
-  command.add_option("--pairs-at-once", a.pairs_at_once, "pairs worked on at the same time; 0: one a thread");
+  command.add_option("--pairs-at-once", a.pairs_at_once,
+                     "pairs worked on at the same time; 0: one for each thread; 1 for undisturbed times");
   command.add_option("--shard", a.shard, "k/N: only part k of N of the pairs");
+  command.add_flag("--no-check", a.no_check, "do not compare the overlaps of a few pairs with the scans first");
+}
+
+struct MergeArguments {
+  std::vector<std::filesystem::path> results;
+  std::filesystem::path output;
+};
+
+void set_up_merge(CLI::App& command, MergeArguments& a, std::function<int()>& chosen) {
+  CLI::App* merge = command.add_subcommand("merge", "join shards, or results of other algorithms on the same set");
+  merge->add_option("results", a.results, "result folders")->required();
+  merge->add_option("-o,--output", a.output, "folder for the joined result; default: the first");
+  merge->callback([&a, &chosen] {
+    chosen = [&a] {
+      print_overview(merge_results(a.results, a.output.empty() ? a.results.front() : a.output));
+      return 0;
+    };
+  });
 }
 
 }  // namespace
@@ -42,16 +70,30 @@ void add_run_options(CLI::App& command, EvaluateArguments& a) {
 void print_overview(const StoredResult& result) {
   const auto summaries = summarise_all(result.outcomes, result.experiment.algorithms, result.set);
   std::printf("%s\n", to_markdown(overview_table(result.experiment, summaries)).c_str());
+  const TextTable times = times_table(summaries);
+  if (!times.rows.empty()) {
+    std::printf("%s\n", to_markdown(times).c_str());
+  }
   if (result.experiment.negatives > 0) {
     std::printf("%s\n", to_markdown(certainty_table(summaries)).c_str());
   }
 }
 
 Action set_up_evaluate(CLI::App& command, const Globals& globals) {
-  const auto arguments = std::make_shared<EvaluateArguments>();
+  struct Arguments {
+    EvaluateArguments run;
+    MergeArguments merge;
+    std::function<int()> chosen;
+  };
+  const auto arguments = std::make_shared<Arguments>();
   command.footer(kExamples);
-  add_run_options(command, *arguments);
-  return [arguments, &globals] { return run_evaluate(*arguments, globals); };
+  command.require_subcommand(0, 1);
+  add_input_options(command, arguments->run);
+  add_run_options(command, arguments->run);
+  set_up_merge(command, arguments->merge, arguments->chosen);
+  return [arguments, &globals] {
+    return arguments->chosen ? arguments->chosen() : run_evaluate(arguments->run, globals);
+  };
 }
 
 }  // namespace loopmark::app

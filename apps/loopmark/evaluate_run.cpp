@@ -2,41 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate_run.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
+#include "evaluate_algorithms.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/evaluation/experiment.hpp"
+#include "loopmark/evaluation/set_check.hpp"
+#include "loopmark/io/dataset.hpp"
 
 namespace loopmark::app {
 namespace {
-
-/// "NAME=FILE", or FILE whose name is taken.
-std::pair<std::string, std::filesystem::path> named_file(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals != std::string::npos && equals > 0) {
-    return {text.substr(0, equals), text.substr(equals + 1)};
-  }
-  return {std::filesystem::path(text).stem().string(), text};
-}
-
-AlgorithmList make_algorithms(const EvaluateArguments& arguments, const EvaluatedSet& set) {
-  AlgorithmList algorithms;
-  for (const std::string& text : arguments.motions) {
-    const auto [name, file] = named_file(text);
-    algorithms.push_back(make_motions_algorithm(name, motions_of_pairs(set.pairs, read_motions(file), file)));
-  }
-  if (algorithms.empty()) {
-    throw InputError("nothing to evaluate: give --motions FILE");
-  }
-  return algorithms;
-}
 
 ExperimentTask make_task(const EvaluateArguments& arguments) {
   ExperimentTask task;
   task.set.pairs = read_pair_set(arguments.set);
   if (!arguments.negatives.empty()) {
     task.set.negatives = read_negatives(arguments.negatives);
+  }
+  if (!arguments.perturb.empty()) {
+    task.perturbations = read_perturbations(arguments.perturb, task.set.pairs);
   }
   task.set_name = arguments.set.filename().string();
   task.criterion = arguments.criterion;
@@ -45,15 +31,54 @@ ExperimentTask make_task(const EvaluateArguments& arguments) {
   return task;
 }
 
+std::unique_ptr<Dataset> open_data(const EvaluateArguments& arguments) {
+  std::filesystem::path sessions = arguments.sessions;
+  const std::filesystem::path beside = arguments.set.parent_path() / "sessions.txt";
+  if (sessions.empty() && std::filesystem::exists(beside)) {
+    sessions = beside;
+  }
+  return open_dataset(arguments.data, sessions);
+}
+
+/// Every scan that the shard needs is there; a missing one is told before the work starts.
+void check_frames(const ExperimentTask& task, const Dataset& data) {
+  for (std::size_t index = 0; index < task.set.size(); ++index) {
+    if (task.shard.holds(index)) {
+      const PairKey& key = task.set.key(index);
+      data.frame_index(key.session, key.source);
+      data.frame_index(key.target_session, key.target);
+    }
+  }
+}
+
+/// The scans of the task, once they are known to be the right ones; empty when nothing needs scans.
+ScanLoader make_loader(const EvaluateArguments& arguments, const AlgorithmList& algorithms, ExperimentTask& task) {
+  const bool needed = std::any_of(algorithms.begin(), algorithms.end(), [](const auto& a) { return a->needs_scans(); });
+  if (!needed) {
+    return {};
+  }
+  if (arguments.data.empty()) {
+    throw InputError("--data ROOT is needed: " + algorithms.back()->name() + " works on scans");
+  }
+  const std::shared_ptr<Dataset> data = open_data(arguments);
+  check_frames(task, *data);
+  const ScanLoader load = [data](int session, int frame) { return data->load(session, frame); };
+  if (!arguments.no_check && match_set_to_scans(task, load)) {
+    std::printf("the motions of %s are of the scans before --perturb: now they include it\n", task.set_name.c_str());
+  }
+  return load;
+}
+
 }  // namespace
 
-int run_evaluate(const EvaluateArguments& arguments, const Globals& /*globals*/) {
+int run_evaluate(const EvaluateArguments& arguments, const Globals& globals) {
   if (arguments.set.empty() || arguments.output.empty()) {
     throw InputError("loopmark evaluate SET -o RESULT: the pairs file and the result folder are needed (see --help)");
   }
-  const ExperimentTask task = make_task(arguments);
-  const AlgorithmList algorithms = make_algorithms(arguments, task.set);
-  run_experiment(task, algorithms, {}, arguments.output);
+  ExperimentTask task = make_task(arguments);
+  const AlgorithmList algorithms = make_algorithms(arguments, globals.options(), task.set);
+  const ScanLoader load = make_loader(arguments, algorithms, task);
+  run_experiment(task, algorithms, load, arguments.output);
   if (!result_is_complete(arguments.output)) {
     std::printf("shard %s is done; loopmark evaluate merge %s makes the tables when all shards are\n",
                 arguments.shard.c_str(), arguments.output.c_str());

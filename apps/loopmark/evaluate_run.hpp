@@ -15,14 +15,19 @@ namespace loopmark::app {
 struct EvaluateArguments {
   std::filesystem::path set;
   std::filesystem::path data;
+  std::filesystem::path sessions;
   std::filesystem::path output;
   std::vector<std::string> algorithms;
   std::vector<std::string> motions;
+  std::vector<std::string> commands;
+  std::vector<std::string> refine;
   std::filesystem::path negatives;
   std::filesystem::path perturb;
   SuccessCriterion criterion;
+  double time_limit_s = 30.0;
   std::size_t pairs_at_once = 0;
   std::string shard = "1/1";
+  bool no_check = false;
 };
 
 /// Runs the experiment, writes the result folder and prints the overview.

@@ -76,8 +76,8 @@ bool result_is_complete(const std::filesystem::path& folder);
 /// `target`, the same bytes as one process that did all of it (times aside).
 StoredResult merge_results(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& target);
 
-/// Writes results.csv and motions/ (the same bytes for the same answers) and, with the times, times.csv,
-/// summary.json and tables/.
+/// Writes results.csv, motions/ and tables/ (the same bytes for the same answers) and what holds times:
+/// times.csv, summary.json, tables/times and tables/stages.
 void write_products(const std::filesystem::path& folder, const StoredResult& result);
 
 /// Orders outcomes by algorithm (in the order of `names`), then by pair.

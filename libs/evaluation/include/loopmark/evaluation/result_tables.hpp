@@ -10,8 +10,10 @@
 
 namespace loopmark {
 
-/// Recall with its interval, errors, times: one row an algorithm.
+/// Recall with its interval, errors, what was answered: one row an algorithm.
 TextTable overview_table(const Experiment& experiment, const std::vector<AlgorithmSummary>& summaries);
+/// Seconds a pair: the paper's accounting and the whole.
+TextTable times_table(const std::vector<AlgorithmSummary>& summaries);
 /// Mean, median and 95th percentile of TE and RE, over all pairs and over successes.
 TextTable errors_table(const std::vector<AlgorithmSummary>& summaries);
 /// Recall by bins of one quantity.

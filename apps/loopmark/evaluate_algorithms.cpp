@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate_algorithms.hpp"
+
+#include <sstream>
+
+#include "loopmark/config/options_io.hpp"
+#include "loopmark/core/error.hpp"
+#include "loopmark/evaluation/external_algorithm.hpp"
+
+namespace loopmark::app {
+namespace {
+
+/// "NAME=VALUE", or VALUE with another name.
+std::pair<std::string, std::string> named(const std::string& text, const std::string& otherwise) {
+  const std::size_t equals = text.find('=');
+  const std::size_t other = text.find_first_of(" /");
+  if (equals == std::string::npos || equals == 0 || other < equals) {
+    return {otherwise, text};
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// The algorithms of one experiment while they are collected.
+class Collection {
+ public:
+  Collection(const EvaluateArguments& arguments, const AppOptions& options, const EvaluatedSet& set)
+      : arguments_(arguments), options_(options), set_(set) {}
+
+  AlgorithmList all() {
+    for (const std::string& text : arguments_.motions) {
+      const auto [name, file] = named(text, std::filesystem::path(text).stem().string());
+      add(make_motions_algorithm(name, motions_of_pairs(set_.pairs, read_motions(file), file)));
+    }
+    for (const std::string& name : names()) {
+      add(by_name(name));
+    }
+    for (const std::string& text : arguments_.commands) {
+      const auto [name, command] = named(text, "command");
+      add(make_external_algorithm(name, {command, arguments_.time_limit_s, 60.0, {}}));
+    }
+    return std::move(list_);
+  }
+
+ private:
+  /// The engine when nothing else is asked for.
+  std::vector<std::string> names() const {
+    const bool nothing = arguments_.algorithms.empty() && arguments_.motions.empty() && arguments_.commands.empty();
+    return nothing ? std::vector<std::string>{"engine"} : arguments_.algorithms;
+  }
+
+  std::unique_ptr<RegistrationAlgorithm> by_name(const std::string& name) const {
+    if (name == "engine") {
+      return make_engine_algorithm(options_.registration, config::dump(options_.registration));
+    }
+    throw InputError("--algorithms " + name + ": no such algorithm (there are: engine)");
+  }
+
+  void add(std::unique_ptr<RegistrationAlgorithm> algorithm) {
+    const std::string name = algorithm->name();
+    list_.push_back(std::move(algorithm));
+    for (const std::string& method : arguments_.refine) {
+      list_.push_back(make_refined_algorithm(name, method));
+    }
+  }
+
+  const EvaluateArguments& arguments_;
+  const AppOptions& options_;
+  const EvaluatedSet& set_;
+  AlgorithmList list_;
+};
+
+}  // namespace
+
+AlgorithmList make_algorithms(const EvaluateArguments& arguments, const AppOptions& options, const EvaluatedSet& set) {
+  return Collection(arguments, options, set).all();
+}
+
+}  // namespace loopmark::app

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "evaluate_run.hpp"
+#include "loopmark/evaluation/algorithm.hpp"
+
+namespace loopmark::app {
+
+/// What competes, in the order of the tables: motions files, the algorithms by name, foreign programs, and each of
+/// them once more for every refinement. Throws InputError naming what does not exist.
+AlgorithmList make_algorithms(const EvaluateArguments& arguments, const AppOptions& options, const EvaluatedSet& set);
+
+}  // namespace loopmark::app
