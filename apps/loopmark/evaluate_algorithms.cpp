@@ -50,10 +50,7 @@ class Collection {
   }
 
   std::unique_ptr<RegistrationAlgorithm> by_name(const std::string& name) const {
-    if (name == "engine") {
-      return make_engine_algorithm(options_.registration, config::dump(options_.registration));
-    }
-    throw InputError("--algorithms " + name + ": no such algorithm (there are: engine)");
+    throw InputError("--algorithms " + name + ": no such algorithm");
   }
 
   void add(std::unique_ptr<RegistrationAlgorithm> algorithm) {
