@@ -4,10 +4,13 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "io/io_fixtures.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
+#include "loopmark/mrpt_bridge/rawlog.hpp"
 
 namespace loopmark {
 namespace {
@@ -155,6 +158,27 @@ TEST(DriveLog, MulRanPosesAreThoseOfTheOuster) {
   const auto log = open_log(folder.path());
   EXPECT_EQ(log->info().format, "mulran");
   EXPECT_NEAR(log->truth().at(0).translation().x(), 13.9 + 1.7042, 1e-4);
+}
+
+TEST(DriveLog, RawlogsAreLogsLikeOthers) {
+  const TemporaryFolder folder;
+  RawlogWriter writer(folder / "drive.rawlog", "top");
+  PointCloud cloud = random_cloud(60);
+  cloud.points[3].setConstant(std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < 3; ++i) {
+    writer.add({i, 50.0 + static_cast<double>(i), cloud}, forward_poses(3)[i]);
+  }
+  writer.add({3, 53.0, random_cloud(9)});
+  writer.finish();
+  const auto log = open_log(folder.path());
+  EXPECT_EQ(log->info().format, "rawlog");
+  EXPECT_EQ(log->size(), 4U);
+  EXPECT_NEAR(log->truth().at(2).translation().x(), 2.0, 1e-9);
+  const ScanReading reading = log->read_closely(1);
+  EXPECT_EQ(reading.scan.cloud.size(), 59U);
+  EXPECT_EQ(reading.dropped.not_finite, 1U);
+  EXPECT_TRUE(reading.times_in_file);
+  EXPECT_THAT(message_of<DamagedScan>([&] { log->read(3); }), HasSubstr("9 usable points"));
 }
 
 TEST(DriveLog, BadInputIsNamed) {

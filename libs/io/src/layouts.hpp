@@ -24,4 +24,7 @@ LogPointer open_apollo(const std::filesystem::path& path, const LogOptions& opti
 /// KITTI odometry (velodyne/*.bin, times.txt, calib.txt, poses.txt) and any folder of point files.
 LogPointer open_folder(const std::filesystem::path& path, const LogOptions& options);
 
+/// An MRPT .rawlog, or a folder with one.
+LogPointer open_rawlog(const std::filesystem::path& path, const LogOptions& options);
+
 }  // namespace loopmark::io

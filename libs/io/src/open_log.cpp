@@ -23,6 +23,7 @@ constexpr std::array kFormats = {
     Format{"mulran", io::open_mulran},
     Format{"apollo", io::open_apollo},
     Format{"folder", io::open_folder},
+    Format{"rawlog", io::open_rawlog},
 };
 
 std::string known_formats() {

@@ -141,6 +141,17 @@ void require_coordinates(const PointColumns& columns, const std::string& file) {
   }
 }
 
+PointCloud drop_senseless(PointCloud cloud, const LogOptions& options, DroppedPoints& dropped) {
+  std::vector<std::size_t> kept;
+  kept.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (usable(cloud.points[i], static_cast<float>(options.max_range_m), dropped)) {
+      kept.push_back(i);
+    }
+  }
+  return kept.size() == cloud.size() ? std::move(cloud) : select(cloud, kept);
+}
+
 PointFile decode_points(const PointColumns& columns, const LogOptions& options) {
   PointFile file;
   std::vector<std::uint32_t> kept;

@@ -37,6 +37,9 @@ Column* column_for_field(PointColumns& columns, std::string_view field_name);
 /// Copies what is usable. Times become seconds (see interpret_times).
 PointFile decode_points(const PointColumns& columns, const LogOptions& options);
 
+/// The cloud without its senseless points, which are counted.
+PointCloud drop_senseless(PointCloud cloud, const LogOptions& options, DroppedPoints& dropped);
+
 /// Throws DamagedScan with `file` unless x, y and z are there.
 void require_coordinates(const PointColumns& columns, const std::string& file);
 

@@ -31,6 +31,7 @@ struct LogInfo {
   std::string stamps_source;      ///< "times.txt", "file names", "rate 10 Hz", ...
   std::string truth_source;       ///< the file of the reference poses
   std::string truth_problem;      ///< why poses that lie there are not used; empty when all is well
+  std::string problem;            ///< what is wrong with the log as a whole (a truncated rawlog); empty when nothing is
   std::optional<SweepModel> sweep;          ///< how the points' times are rebuilt where the log has none
   std::optional<bool> motion_compensated;   ///< what the log itself says, not measured
 };
