@@ -22,13 +22,12 @@ std::vector<double> even_fan(int lasers, double low_deg, double high_deg) {
   return fan;
 }
 
-/// Roof, bonnet and roof bars of an estate car below a sensor at `height`.
+/// Roof, bonnet and a roof bar of an estate car below a sensor that stands half a metre above the roof.
 std::vector<EgoBox> car_below(double height) {
-  const double roof = 1.45 - height;
-  const double bonnet = 0.95 - height;
-  return {{{-1.7, -0.62, roof - 0.1}, {0.75, 0.62, roof}},
-          {{1.35, -0.8, bonnet - 0.2}, {2.5, 0.8, bonnet}},
-          {{-1.05, -0.7, roof}, {-1.0, 0.7, roof + 0.1}}};
+  const double bonnet = 0.78 - height;
+  return {{{-1.65, -0.55, -0.6}, {0.7, 0.55, -0.5}},
+          {{1.3, -0.75, bonnet - 0.2}, {2.45, 0.75, bonnet}},
+          {{-1.05, -0.6, -0.5}, {-1.0, 0.6, -0.4}}};
 }
 
 SensorModel hdl64e() {
