@@ -7,11 +7,13 @@
 #include <cstdio>
 #include <vector>
 
+#include "loopmark/core/files.hpp"
 #include "loopmark/core/interrupt.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
-#include "output_folder.hpp"
-#include "point_files.hpp"
+#include "loopmark/io/point_files.hpp"
+#include "loopmark/io/trajectory.hpp"
+#include "loopmark/simulation/output_folder.hpp"
 
 namespace loopmark::simulation {
 namespace {
@@ -24,16 +26,6 @@ std::string format(const char* pattern, Values... values) {
   std::array<char, 512> text{};
   std::snprintf(text.data(), text.size(), pattern, values...);
   return text.data();
-}
-
-std::string pose_line(const Pose& pose) {
-  std::string line;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      line += format(row == 2 && column == 3 ? "%.9f\n" : "%.9f ", pose.matrix()(row, column));
-    }
-  }
-  return line;
 }
 
 std::string revisits_csv(const Drive& drive) {
@@ -82,19 +74,19 @@ std::string sweep_text(const Drive& drive, bool compensated) {
 void write_texts(const Town& town, const Drive& drive, const std::filesystem::path& folder, const WriteOptions& options,
                  const WrittenLog& log) {
   std::string times;
-  std::string poses;
+  std::vector<Pose> poses;
   const Pose T_first_town = drive.pose(drive.stamp_s(0)).inverse();
   for (std::size_t i = 0; i < drive.size(); ++i) {
     times += format("%.6f\n", drive.stamp_s(i));
-    poses += pose_line(T_first_town * drive.pose(drive.stamp_s(i)));
+    poses.push_back(T_first_town * drive.pose(drive.stamp_s(i)));
   }
-  write_bytes(folder / "times.txt", times);
-  write_bytes(folder / "poses.txt", poses);
+  write_file_atomically(folder / "times.txt", times);
+  write_kitti(folder / "poses.txt", poses);
   const std::string camera = "1 0 0 0 0 1 0 0 0 0 1 0\n";
-  write_bytes(folder / "calib.txt", "P0: " + camera + "P1: " + camera + "P2: " + camera + "P3: " + camera + "Tr: " + camera);
-  write_bytes(folder / "sweep.txt", sweep_text(drive, options.compensated));
-  write_bytes(folder / "revisits.csv", revisits_csv(drive));
-  write_bytes(folder / "town.json", town_json(town, drive, options, log));
+  write_file_atomically(folder / "calib.txt", "P0: " + camera + "P1: " + camera + "P2: " + camera + "P3: " + camera + "Tr: " + camera);
+  write_file_atomically(folder / "sweep.txt", sweep_text(drive, options.compensated));
+  write_file_atomically(folder / "revisits.csv", revisits_csv(drive));
+  write_file_atomically(folder / "town.json", town_json(town, drive, options, log));
 }
 
 }  // namespace
@@ -113,9 +105,12 @@ WrittenLog write_drive(const World& world, const Town& town, const Drive& drive,
     const std::size_t count = std::min(kBatch, drive.size() - first);
     std::vector<std::size_t> points(count);
     parallel_for(count, [&](std::size_t k) {
-      const Scan scan = render_scan(world, drive, first + k, frame);
-      const std::string name = format(pcd ? "%06zu.pcd" : "%06zu.bin", first + k);
-      write_bytes(scans / name, pcd ? pcd_bytes(scan.cloud) : kitti_bytes(scan.cloud));
+      Scan scan = render_scan(world, drive, first + k, frame);
+      if (options.compensated) {
+        scan.cloud.time_offset_s.clear();  // nobody must take them for the points' own moments
+      }
+      const std::filesystem::path file = scans / format(pcd ? "%06zu.pcd" : "%06zu.bin", first + k);
+      pcd ? write_pcd(file, scan.cloud) : write_bin(file, scan.cloud);
       points[k] = scan.cloud.size();
     });
     for (const std::size_t n : points) {

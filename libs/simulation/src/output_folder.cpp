@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "output_folder.hpp"
+#include "loopmark/simulation/output_folder.hpp"
 
 #include <system_error>
 
