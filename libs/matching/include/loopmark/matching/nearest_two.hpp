@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "loopmark/search/descriptor_matrix.hpp"
+
+namespace loopmark {
+
+constexpr std::uint32_t kNoNeighbour = std::numeric_limits<std::uint32_t>::max();
+
+/// The two nearest rows of another matrix for one row; kNoNeighbour and infinity where there is none.
+struct NearestTwo {
+  std::uint32_t first = kNoNeighbour;
+  std::uint32_t second = kNoNeighbour;
+  float first_squared = std::numeric_limits<float>::infinity();
+  float second_squared = std::numeric_limits<float>::infinity();
+};
+
+struct TwoWayNearest {
+  std::vector<NearestTwo> forward;   ///< for each source row, in the target
+  std::vector<NearestTwo> backward;  ///< for each target row, in the source
+};
+
+/// Exact nearest and second nearest neighbours (L2) in both directions. Rows that are zero or not finite are nobody's
+/// neighbour and have none. Among equal distances the lower row wins. Distances are sums of squared float
+/// differences, not |a|^2 + |b|^2 - 2ab, whose rounding would exchange near-equal neighbours.
+/// Throws std::invalid_argument when the two matrices have different numbers of columns.
+TwoWayNearest nearest_two(const DescriptorMatrix& source, const DescriptorMatrix& target);
+
+}  // namespace loopmark

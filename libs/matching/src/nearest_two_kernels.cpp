@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nearest_two_kernels.hpp"
+
+#include "loopmark/core/dispatch.hpp"
+
+namespace loopmark::kernels {
+
+LOOPMARK_DISPATCH
+float row_distance(const float* a, const float* b, std::size_t padded) {
+  using Vector = float __attribute__((vector_size(32), aligned(4)));
+  Vector sum{};
+  for (std::size_t k = 0; k < padded; k += kRowStep) {
+    const Vector d = *reinterpret_cast<const Vector*>(a + k) - *reinterpret_cast<const Vector*>(b + k);
+    sum += d * d;
+  }
+  return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+}
+
+LOOPMARK_DISPATCH
+void box_bounds(const float* q, const float* low, const float* high, std::size_t count, float* __restrict bound) {
+  for (std::size_t i = 0; i < count; ++i) {
+    bound[i] = 0.0F;
+  }
+  for (std::size_t d = 0; d < kBound; ++d) {
+    const float value = q[d];
+    const float* lo = low + d * count;
+    const float* hi = high + d * count;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float below = lo[i] - value;
+      const float above = value - hi[i];
+      float gap = below > above ? below : above;
+      gap = gap > 0.0F ? gap : 0.0F;
+      bound[i] += gap * gap;
+    }
+  }
+}
+
+LOOPMARK_DISPATCH
+std::size_t leaf_hits(const float* q, const float* leaf, float threshold, std::uint8_t* __restrict hits) {
+  constexpr std::size_t kChunk = 16;
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < kLeaf; begin += kChunk) {
+    float bound[kChunk] = {};
+    for (std::size_t d = 0; d < kBound; ++d) {
+      for (std::size_t l = 0; l < kChunk; ++l) {
+        const float gap = leaf[d * kLeaf + begin + l] - q[d];
+        bound[l] += gap * gap;
+      }
+    }
+    std::int32_t any = 0;
+    for (std::size_t l = 0; l < kChunk; ++l) {
+      any |= bound[l] < threshold ? 1 : 0;
+    }
+    if (any != 0) {
+      for (std::size_t l = 0; l < kChunk; ++l) {
+        hits[count] = static_cast<std::uint8_t>(begin + l);
+        count += bound[l] < threshold ? 1U : 0U;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace loopmark::kernels

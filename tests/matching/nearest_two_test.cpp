@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/matching/nearest_two.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "loopmark/core/parallel.hpp"
+#include "loopmark/core/random.hpp"
+
+namespace loopmark {
+namespace {
+
+/// Rows near a few centres: many near-equal neighbours, as histograms of flat ground are.
+DescriptorMatrix clustered(Eigen::Index rows, Eigen::Index columns, double spread, std::uint64_t seed) {
+  Rng centres_rng(99);
+  DescriptorMatrix centres(6, columns);
+  for (Eigen::Index k = 0; k < centres.size(); ++k) {
+    centres.data()[k] = static_cast<float>(centres_rng.uniform(0.0, 100.0));
+  }
+  Rng rng(seed);
+  DescriptorMatrix m(rows, columns);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const auto centre = static_cast<Eigen::Index>(rng.below(6));
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      m(r, c) = centres(centre, c) + static_cast<float>(spread * rng.normal());
+    }
+  }
+  return m;
+}
+
+double squared(const DescriptorMatrix& a, Eigen::Index i, const DescriptorMatrix& b, std::uint32_t j) {
+  return (a.row(i).cast<double>() - b.row(static_cast<Eigen::Index>(j)).cast<double>()).squaredNorm();
+}
+
+void expect_nearest(const DescriptorMatrix& queries, const DescriptorMatrix& in, const std::vector<NearestTwo>& found) {
+  ASSERT_EQ(found.size(), static_cast<std::size_t>(queries.rows()));
+  for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+    double first = std::numeric_limits<double>::infinity();
+    double second = first;
+    for (Eigen::Index j = 0; j < in.rows(); ++j) {
+      const double d = squared(queries, i, in, static_cast<std::uint32_t>(j));
+      if (d < first) {
+        second = first;
+        first = d;
+      } else {
+        second = std::min(second, d);
+      }
+    }
+    const NearestTwo& n = found[static_cast<std::size_t>(i)];
+    ASSERT_NE(n.second, kNoNeighbour);
+    ASSERT_NE(n.first, n.second);
+    EXPECT_NEAR(squared(queries, i, in, n.first), first, 1e-5 * first);
+    EXPECT_NEAR(squared(queries, i, in, n.second), second, 1e-5 * second);
+    EXPECT_NEAR(static_cast<double>(n.second_squared), second, 1e-5 * second);
+  }
+}
+
+class NearestTwoOf : public testing::TestWithParam<std::pair<int, double>> {};
+
+TEST_P(NearestTwoOf, IsTheBruteForceAnswer) {
+  const auto [columns, spread] = GetParam();
+  const DescriptorMatrix source = clustered(700, columns, spread, 1);
+  const DescriptorMatrix target = clustered(1000, columns, spread, 2);
+  const TwoWayNearest found = nearest_two(source, target);
+  expect_nearest(source, target, found.forward);
+  expect_nearest(target, source, found.backward);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, NearestTwoOf,
+                         testing::Values(std::pair{33, 0.01}, std::pair{33, 1.0}, std::pair{33, 40.0},
+                                         std::pair{32, 5.0}, std::pair{3, 5.0}, std::pair{64, 1.0}));
+
+TEST(NearestTwo, EqualRowsGoToTheLowest) {
+  DescriptorMatrix target(200, 4);
+  target.setConstant(2.0F);
+  DescriptorMatrix source(1, 4);
+  source << 1, 2, 3, 4;
+  const TwoWayNearest found = nearest_two(source, target);
+  EXPECT_EQ(found.forward[0].first, 0U);
+  EXPECT_EQ(found.forward[0].second, 1U);
+  EXPECT_EQ(found.backward[100].first, 0U);
+  EXPECT_EQ(found.backward[100].second, kNoNeighbour);
+}
+
+TEST(NearestTwo, ZeroAndBrokenRowsHaveNoPart) {
+  DescriptorMatrix source = clustered(50, 33, 1.0, 3);
+  DescriptorMatrix target = clustered(60, 33, 1.0, 4);
+  source.row(5).setZero();
+  target.row(7).setZero();
+  target(8, 3) = std::numeric_limits<float>::quiet_NaN();
+  const TwoWayNearest found = nearest_two(source, target);
+  EXPECT_EQ(found.forward[5].first, kNoNeighbour);
+  EXPECT_EQ(found.backward[7].first, kNoNeighbour);
+  EXPECT_EQ(found.backward[8].first, kNoNeighbour);
+  for (const NearestTwo& n : found.forward) {
+    EXPECT_TRUE(n.first != 7 && n.first != 8 && n.second != 7 && n.second != 8);
+  }
+}
+
+TEST(NearestTwo, SameAnswerAtAnyNumberOfThreads) {
+  const DescriptorMatrix source = clustered(900, 33, 3.0, 5);
+  const DescriptorMatrix target = clustered(900, 33, 3.0, 6);
+  set_thread_count(1);
+  const TwoWayNearest one = nearest_two(source, target);
+  set_thread_count(4);
+  const TwoWayNearest four = nearest_two(source, target);
+  set_thread_count(0);
+  for (std::size_t i = 0; i < 900; ++i) {
+    EXPECT_EQ(one.forward[i].first, four.forward[i].first);
+    EXPECT_EQ(one.forward[i].second_squared, four.forward[i].second_squared);
+  }
+}
+
+TEST(NearestTwo, TakesEmptyAndRefusesUnequal) {
+  EXPECT_EQ(nearest_two(DescriptorMatrix(0, 33), clustered(5, 33, 1, 7)).backward[0].first, kNoNeighbour);
+  EXPECT_THROW(nearest_two(clustered(5, 32, 1, 7), clustered(5, 33, 1, 7)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace loopmark
