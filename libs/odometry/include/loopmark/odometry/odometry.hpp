@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Odometry of one piece of a drive: each scan is aligned to a local map of the scans before it.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "loopmark/cloud/deskew.hpp"
+#include "loopmark/core/point_cloud.hpp"
+#include "loopmark/odometry/health.hpp"
+#include "loopmark/odometry/local_map.hpp"
+#include "loopmark/odometry/options.hpp"
+
+namespace loopmark {
+
+/// A scan with a pose, not yet part of the local map.
+struct TrackedScan {
+  std::size_t index = 0;
+  double stamp_s = 0.0;
+  Pose T_map_lidar = Pose::Identity();      ///< at the scan's stamp
+  Vector6d velocity = Vector6d::Zero();     ///< in the lidar's frame, a second; what the scan was deskewed with
+  Health health;
+  PointCloud sample;                        ///< its points, thinned, as seen (not deskewed), with times where known
+};
+
+/// The front end. Feed scans in order: `track` finds the pose, `commit` accepts it and grows the map. A caller that
+/// knows better (global registration, another sensor) may change the pose in between, or `restart`.
+class Odometry {
+ public:
+  /// `compensation`: whether and how scans are deskewed; `sweep`: for logs without times (its direction is set
+  /// from `compensation`).
+  explicit Odometry(const OdometryOptions& options, Compensation compensation = Compensation::kUnknown,
+                    const SweepModel& sweep = {});
+
+  /// The pose of `scan` in the local map, predicted by the motion so far and aligned.
+  TrackedScan track(const Scan& scan) const;
+
+  /// The same from a pose that is known roughly instead of predicted.
+  TrackedScan track_from(const Scan& scan, const Pose& T_map_lidar) const;
+
+  /// Takes the scan into the local map and the motion model.
+  void commit(const TrackedScan& tracked);
+
+  /// Forgets map and motion: the next scan starts a new piece at `T_map_lidar`.
+  void restart(const Pose& T_map_lidar = Pose::Identity());
+
+  /// The scan's points in range, deskewed to its stamp with the velocity found.
+  PointCloud deskewed_cloud(const Scan& scan, const Vector6d& velocity) const;
+
+  bool deskews() const;
+  const std::optional<LocalMap>& map() const { return map_; }
+
+ private:
+  struct Start;
+
+  TrackedScan prepare(const Scan& scan) const;
+  std::vector<Start> starts(double stamp_s) const;
+  std::vector<Start> wide_starts(double stamp_s) const;
+  TrackedScan best_of(const TrackedScan& prepared, const std::vector<Start>& starts, double threshold_m) const;
+  TrackedScan best_of_wide(const TrackedScan& prepared, const TrackedScan& near) const;
+  std::vector<Start> shortlist(const TrackedScan& prepared, const std::vector<Start>& starts) const;
+  std::vector<Eigen::Vector3f> keypoints(const TrackedScan& tracked, double cell_m) const;
+  void align_from(TrackedScan& tracked, const Start& start, double threshold_m) const;
+  void align_to(const LocalMap& map, TrackedScan& tracked, const Start& start, double threshold_m) const;
+  void align_to_deskewed_first(TrackedScan& answer) const;
+  std::vector<float> times(const PointCloud& cloud) const;
+  std::vector<Eigen::Vector3f> deskewed_sample(const TrackedScan& tracked) const;
+  double threshold(double gap_s) const;
+  void judge(TrackedScan& tracked) const;
+  void grow(const TrackedScan& tracked);
+  void rebuild_first_scan();
+
+  OdometryOptions options_;
+  Compensation compensation_;
+  SweepModel sweep_;
+  std::optional<LocalMap> map_;
+  std::optional<LocalMap> coarse_;  ///< the same in larger voxels, to search further
+  Pose origin_ = Pose::Identity();
+  std::optional<TrackedScan> last_;
+  std::size_t committed_ = 0;
+  std::deque<double> deviations_;   ///< metres by which the motion model missed, latest last
+  Eigen::Vector3d swept_at_ = Eigen::Vector3d::Zero();  ///< where the map was last pruned
+};
+
+/// Voxel of the local map that suits a scene, metres: from how far away its surfaces are.
+double voxel_for_scene(const std::vector<Eigen::Vector3f>& points);
+
+}  // namespace loopmark

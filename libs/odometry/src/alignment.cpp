@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/odometry/alignment.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "loopmark/core/parallel.hpp"
+
+namespace loopmark {
+namespace {
+
+constexpr std::size_t kBlock = 512;          // keypoints of one partial sum
+constexpr double kNoPlaneWeight = 0.2;       // of a match whose surface is no plane
+constexpr double kInlierVoxels = 0.2;        // an inlier is nearer to its surface than this many voxels
+constexpr double kConverged = 1e-4;          // step, metres and radians
+
+/// Sums over the keypoints. The tangent is [translation; rotation about the sensor], both along the map's axes.
+struct NormalEquations {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d b = Vector6d::Zero();
+  Matrix6d H_planes = Matrix6d::Zero();  // inliers on planes only, weight 1: what really holds the scan
+  double squares = 0.0;                  // of the inliers' distances
+  std::size_t inliers = 0;
+  std::size_t matches = 0;
+
+  NormalEquations& operator+=(const NormalEquations& other) {
+    H += other.H;
+    b += other.b;
+    H_planes += other.H_planes;
+    squares += other.squares;
+    inliers += other.inliers;
+    matches += other.matches;
+    return *this;
+  }
+};
+
+struct Kernel {
+  double scale_m;
+  double inlier_m;
+  double point_weight;
+};
+
+void add_match(NormalEquations& sums, const Eigen::Vector3d& lever, const Eigen::Vector3d& error,
+               const Eigen::Vector3d& normal, const Kernel& kernel) {
+  ++sums.matches;
+  const bool plane = !normal.isZero(0.0);
+  const double across = plane ? normal.dot(error) : error.norm();
+  const double share = kernel.scale_m / (kernel.scale_m + across * across / kernel.scale_m);
+  const double robust = share * share;  // Geman-McClure
+  Eigen::Matrix<double, 3, 6> J;
+  J << Eigen::Matrix3d::Identity(), -hat(lever);
+  const double along_weight = robust * (plane ? kernel.point_weight : kNoPlaneWeight);
+  sums.H.noalias() += along_weight * J.transpose() * J;
+  sums.b.noalias() += along_weight * J.transpose() * error;
+  const bool inlier = std::abs(across) < kernel.inlier_m;
+  if (plane) {
+    const Vector6d j = J.transpose() * normal;
+    sums.H.noalias() += robust * (1.0 - kernel.point_weight) * j * j.transpose();
+    sums.b.noalias() += robust * (1.0 - kernel.point_weight) * across * j;
+    if (inlier) {
+      sums.H_planes.noalias() += j * j.transpose();
+    }
+  }
+  if (inlier) {
+    ++sums.inliers;
+    sums.squares += across * across;
+  }
+}
+
+NormalEquations linearize(const std::vector<Eigen::Vector3f>& keypoints, const LocalMap& map, const Pose& T,
+                          double threshold_m, const Kernel& kernel) {
+  const auto map_block = [&](std::size_t begin, std::size_t end) {
+    NormalEquations sums;
+    MapMatch match;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d lever = T.linear() * keypoints[i].cast<double>();
+      const Eigen::Vector3d point = lever + T.translation();
+      if (map.nearest(point, threshold_m, match)) {
+        add_match(sums, lever, point - match.point, match.normal, kernel);
+      }
+    }
+    return sums;
+  };
+  return parallel_reduce_ordered(keypoints.size(), kBlock, NormalEquations{}, map_block,
+                                 [](NormalEquations& total, const NormalEquations& part) { total += part; });
+}
+
+void step(Pose& T, const Vector6d& xi) {
+  T.translation() += xi.head<3>();
+  T.linear() = exp_se3((Vector6d() << Eigen::Vector3d::Zero(), xi.tail<3>()).finished()).linear() * T.linear();
+}
+
+/// Translations that the planes hardly hold once the rotation is free: small eigenvalues of the Schur complement.
+std::vector<Eigen::Vector3d> weak_directions(const Matrix6d& H, std::size_t keypoints, const Pose& T, double least_share) {
+  const Eigen::Matrix3d rotation_part = H.bottomRightCorner<3, 3>() + 1e-9 * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d schur =
+      H.topLeftCorner<3, 3>() - H.topRightCorner<3, 3>() * rotation_part.inverse() * H.bottomLeftCorner<3, 3>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(schur);
+  std::vector<Eigen::Vector3d> weak;
+  for (int k = 0; k < 3; ++k) {
+    if (eigen.eigenvalues()[k] < least_share * static_cast<double>(keypoints)) {
+      weak.emplace_back(T.linear().transpose() * eigen.eigenvectors().col(k));
+    }
+  }
+  return weak;
+}
+
+/// Covariance of xi in T * exp(xi) (translation and rotation along the lidar's axes). Directions that nothing
+/// holds stay at 10 m and 10 degrees.
+Matrix6d pose_covariance(const Matrix6d& H, double residual_m, const Pose& T, double scale) {
+  constexpr double kLeastNoise = 0.01;
+  constexpr double kUnheldMetres = 10.0;
+  constexpr double kUnheldRadians = 0.175;
+  const double variance = scale * std::pow(std::max(residual_m, kLeastNoise), 2);
+  Vector6d prior;
+  prior << Eigen::Vector3d::Constant(1.0 / (kUnheldMetres * kUnheldMetres)),
+      Eigen::Vector3d::Constant(1.0 / (kUnheldRadians * kUnheldRadians));
+  Matrix6d information = H / variance;
+  information.diagonal() += prior;
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = T.linear().transpose();
+  turn.bottomRightCorner<3, 3>() = T.linear().transpose();
+  const Matrix6d covariance = turn * information.ldlt().solve(Matrix6d::Identity()) * turn.transpose();
+  return 0.5 * (covariance + covariance.transpose());
+}
+
+Health judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T, const OdometryOptions& options) {
+  Health health;
+  health.keypoints = keypoints;
+  health.inlier_share = keypoints > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(keypoints) : 0.0;
+  health.fit_share = sums.matches > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(sums.matches) : 0.0;
+  health.residual_m = sums.inliers > 0 ? std::sqrt(sums.squares / static_cast<double>(sums.inliers)) : 0.0;
+  health.degenerate_directions = weak_directions(sums.H_planes, keypoints, T, options.degenerate_share);
+  health.covariance = pose_covariance(sums.H_planes, health.residual_m, T, options.covariance_scale);
+  health.tracking = health.degenerate_directions.empty() ? Tracking::kGood : Tracking::kDegenerate;
+  return health;
+}
+
+}  // namespace
+
+Alignment align(const std::vector<Eigen::Vector3f>& keypoints, const LocalMap& map, const Pose& T_map_lidar,
+                double threshold_m, const OdometryOptions& options) {
+  Alignment result{T_map_lidar, {}};
+  const double inlier_m = kInlierVoxels * map.voxel_m();
+  const Kernel kernel{std::max(threshold_m / 3.0, inlier_m), inlier_m, options.point_weight};
+  NormalEquations sums;
+  std::size_t iteration = 0;
+  bool converged = false;
+  for (; iteration < options.max_iterations && !converged; ++iteration) {
+    sums = linearize(keypoints, map, result.T_map_lidar, threshold_m, kernel);
+    if (sums.inliers < 6) {
+      break;
+    }
+    const Vector6d xi = -sums.H.ldlt().solve(sums.b);
+    step(result.T_map_lidar, xi);
+    converged = xi.norm() < kConverged;
+  }
+  result.health = judge(sums, keypoints.size(), result.T_map_lidar, options);
+  result.health.iterations = iteration;
+  result.health.converged = converged;
+  return result;
+}
+
+const char* name(Tracking tracking) {
+  switch (tracking) {
+    case Tracking::kGood:
+      return "good";
+    case Tracking::kDegenerate:
+      return "degenerate";
+    case Tracking::kLost:
+      break;
+  }
+  return "lost";
+}
+
+}  // namespace loopmark

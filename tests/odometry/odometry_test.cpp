@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/odometry/odometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include "loopmark/core/error.hpp"
+#include "loopmark/core/parallel.hpp"
+#include "support/box_world.hpp"
+
+namespace loopmark {
+namespace {
+
+using testing::BoxWorld;
+
+/// A drive along a street at a constant speed with a gentle turn rate.
+struct Drive {
+  BoxWorld world = testing::street(120.0, 5);
+  Vector6d velocity = (Vector6d() << 10.0, 0.0, 0.0, 0.0, 0.0, 0.05).finished();
+
+  Pose pose(double time_s) const { return pose_from_yaw(-0.05, {0.0, 0.0, 1.8}) * exp_se3(time_s * velocity); }
+  Scan scan(std::size_t index, double time_s) const {
+    return {index, time_s, testing::sweep(world, pose(time_s), velocity, 0.02, index)};
+  }
+};
+
+PoseError error_after(const Drive& drive, const std::vector<double>& times, Compensation compensation) {
+  Odometry odometry({}, compensation);
+  Pose last;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const TrackedScan tracked = odometry.track(drive.scan(i, times[i]));
+    EXPECT_NE(tracked.health.tracking, Tracking::kLost) << "scan " << i << ": " << tracked.health.reason;
+    odometry.commit(tracked);
+    last = tracked.T_map_lidar;
+  }
+  return pose_error(last, drive.pose(times.front()).inverse() * drive.pose(times.back()));
+}
+
+std::vector<double> every(double step_s, std::size_t count) {
+  std::vector<double> times(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    times[i] = step_s * static_cast<double>(i);
+  }
+  return times;
+}
+
+TEST(Odometry, FollowsADriveThatStartsWhileMoving) {
+  const Drive drive;
+  const PoseError error = error_after(drive, every(0.1, 25), Compensation::kRawClockwise);
+  EXPECT_LT(error.translation_m, 0.12);  // of 24 m
+  EXPECT_LT(error.rotation_deg, 0.3);
+}
+
+TEST(Odometry, TimesGivenOrRebuiltFromTheAzimuthAreTheSame) {
+  const Drive drive;
+  const PoseError given = error_after(drive, every(0.1, 12), Compensation::kRawGivenTimes);
+  const PoseError rebuilt = error_after(drive, every(0.1, 12), Compensation::kRawClockwise);
+  EXPECT_NEAR(given.translation_m, rebuilt.translation_m, 2e-3);
+}
+
+TEST(Odometry, BridgesDroppedScans) {
+  std::vector<double> times = every(0.1, 20);
+  times.erase(times.begin() + 8, times.begin() + 12);
+  const PoseError error = error_after(Drive{}, times, Compensation::kRawClockwise);
+  EXPECT_LT(error.translation_m, 0.1);
+}
+
+TEST(Odometry, SaysThatItIsLostInAnotherPlace) {
+  const Drive drive;
+  Odometry odometry({}, Compensation::kRawClockwise);
+  for (std::size_t i = 0; i < 6; ++i) {
+    odometry.commit(odometry.track(drive.scan(i, 0.1 * static_cast<double>(i))));
+  }
+  Drive elsewhere;
+  elsewhere.world = testing::street(120.0, 77);
+  const TrackedScan tracked = odometry.track(elsewhere.scan(6, 6.6));
+  EXPECT_EQ(tracked.health.tracking, Tracking::kLost);
+  EXPECT_FALSE(tracked.health.reason.empty());
+  odometry.restart();
+  EXPECT_EQ(odometry.track(elsewhere.scan(6, 6.6)).health.tracking, Tracking::kGood);
+}
+
+TEST(Odometry, WidensAlongACorridorWithoutFeatures) {
+  BoxWorld corridor;
+  corridor.boxes = {{{-500, 4, 0}, {500, 6, 8}}, {{-500, -6, 0}, {500, -4, 8}}};
+  Odometry odometry({}, Compensation::kCompensated);
+  TrackedScan tracked;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Pose pose = pose_from_yaw(0.0, {0.3 * static_cast<double>(i), 0.0, 1.8});
+    tracked = odometry.track({i, 0.1 * static_cast<double>(i), testing::sweep(corridor, pose, Vector6d::Zero(), 0.02, i)});
+    odometry.commit(tracked);
+  }
+  ASSERT_EQ(tracked.health.degenerate_directions.size(), 1U);
+  EXPECT_GT(std::abs(tracked.health.degenerate_directions[0].x()), 0.98);
+  EXPECT_GT(tracked.health.covariance(0, 0), 25.0 * tracked.health.covariance(1, 1));
+}
+
+TEST(Odometry, TheSameBytesAtAnyNumberOfThreads) {
+  const auto run = [](std::size_t threads) {
+    set_thread_count(threads);
+    const Drive drive;
+    Odometry odometry({}, Compensation::kRawClockwise);
+    Pose last;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const TrackedScan tracked = odometry.track(drive.scan(i, 0.1 * static_cast<double>(i)));
+      odometry.commit(tracked);
+      last = tracked.T_map_lidar;
+    }
+    return last;
+  };
+  const Pose one = run(1);
+  const Pose two = run(2);
+  set_thread_count(0);
+  EXPECT_TRUE(one.matrix() == two.matrix());
+}
+
+TEST(Odometry, EmptyAndDamagedCloudsAreLostNotFatal) {
+  Odometry odometry({}, Compensation::kCompensated);
+  const Drive drive;
+  odometry.commit(odometry.track(drive.scan(0, 0.0)));
+  EXPECT_EQ(odometry.track({1, 0.1, {}}).health.tracking, Tracking::kLost);
+  PointCloud nonsense;
+  nonsense.points.assign(100, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_EQ(odometry.track({1, 0.1, nonsense}).health.tracking, Tracking::kLost);
+}
+
+TEST(Odometry, RefusesSenselessOptions) {
+  OdometryOptions options;
+  options.max_range_m = 0.1;
+  EXPECT_THROW(Odometry{options}, InputError);
+}
+
+}  // namespace
+}  // namespace loopmark
