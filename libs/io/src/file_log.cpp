@@ -27,7 +27,7 @@ void finish_reading(ScanReading& reading, const std::string& scan_name, const Lo
   }
   reading.times_in_file = !cloud.time_offset_s.empty();
   if (!reading.times_in_file && info.sweep) {
-    cloud.time_offset_s = rebuild_time_offsets(cloud, *info.sweep);
+    cloud.time_offset_s = times_from_azimuth(cloud.points, *info.sweep);
     reading.times_rebuilt = true;
   }
 }

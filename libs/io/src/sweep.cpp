@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/io/sweep.hpp"
 
-#include <cmath>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -11,8 +11,6 @@
 
 namespace loopmark {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 bool contains(const std::string& text, std::string_view words) { return text.find(words) != std::string::npos; }
 
@@ -28,19 +26,6 @@ std::optional<double> period_in(const std::string& text) {
 }
 
 }  // namespace
-
-std::vector<float> rebuild_time_offsets(const PointCloud& cloud, const SweepModel& model) {
-  std::vector<float> offsets;
-  offsets.reserve(cloud.size());
-  const double direction = model.clockwise ? -1.0 : 1.0;
-  for (const Eigen::Vector3f& point : cloud.points) {
-    const double azimuth = std::atan2(static_cast<double>(point.y()), static_cast<double>(point.x()));
-    double phase = direction * (azimuth - model.seam_azimuth_rad) / kTurn;
-    phase -= std::floor(phase);
-    offsets.push_back(static_cast<float>((phase - model.stamp_phase) * model.period_s));
-  }
-  return offsets;
-}
 
 SweepHint parse_sweep_hint(const std::string& raw) {
   const std::string text = io::lower_case(raw);
