@@ -31,7 +31,8 @@ class OccupancyMap : public ::testing::Test {
     return builder.write(bt_, ot_);
   }
 
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("loopmark_occupancy_" + std::to_string(::getpid()));
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("loopmark_occupancy_" + std::to_string(::getpid()));
   std::filesystem::path bt_ = folder_ / "map.bt";
   std::filesystem::path ot_ = folder_ / "map.ot";
 };
@@ -45,7 +46,7 @@ std::string full_bytes(octomap::OcTree& tree) {
 
 std::string binary_bytes(octomap::OcTree& tree) {
   std::ostringstream out;
-  tree.writeBinary(out);   // makes the tree its maximum-likelihood form
+  tree.writeBinary(out);  // makes the tree its maximum-likelihood form
   return out.str();
 }
 

@@ -27,7 +27,8 @@ inline StreetScan street_scan(double x, double yaw, std::size_t rays, Rng& rng) 
   for (std::size_t i = 0; i < rays; ++i) {
     const double azimuth = rng.uniform(0.0, 2.0 * std::numbers::pi);
     const double elevation = rng.uniform(-0.4, 0.15);
-    const Eigen::Vector3d d(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+    const Eigen::Vector3d d(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                            std::sin(elevation));
     double range = d.z() < 0.0 ? 1.8 / -d.z() : 200.0;
     range = std::min(range, 7.7 / std::max(std::abs(d.y()), 0.02)) + 0.02 * rng.normal();
     const Eigen::Vector3d p = range * d;
