@@ -4,6 +4,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <utility>
+
 #include "loopmark/core/error.hpp"
 
 namespace loopmark::config {
@@ -26,7 +28,7 @@ void add_key(Node& map, const YAML::Node& key, const YAML::Node& value, const st
   }
   Node node = convert(value, file);
   node.place = place;
-  map.keys.emplace_back(key.Scalar(), std::move(node));
+  map.keys.push_back({key.Scalar(), std::move(node)});
 }
 
 Node convert(const YAML::Node& yaml, const std::string& file) {
@@ -88,7 +90,7 @@ Node parse_setting(const std::string& setting) {
     const std::size_t dot = path.rfind('.');
     Node parent;
     parent.kind = Node::Kind::kMap;
-    parent.keys.emplace_back(dot == std::string::npos ? path : path.substr(dot + 1), std::move(node));
+    parent.keys.push_back({dot == std::string::npos ? path : path.substr(dot + 1), std::move(node)});
     node = std::move(parent);
     path = dot == std::string::npos ? "" : path.substr(0, dot);
   }

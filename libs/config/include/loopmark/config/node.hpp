@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace loopmark::config {
@@ -16,15 +15,23 @@ struct Place {
   std::string line_text() const { return line > 0 ? std::to_string(line) : std::string(); }
 };
 
+struct NodeKey;
+
 /// A YAML document as a plain value that knows where each part was written.
 struct Node {
   enum class Kind { kNull, kScalar, kSequence, kMap };
 
   Kind kind = Kind::kNull;
   Place place;
-  std::string scalar;                              ///< kScalar: the text, unquoted
-  std::vector<Node> items;                         ///< kSequence
-  std::vector<std::pair<std::string, Node>> keys;  ///< kMap, in the order of the file; the place is that of the key
+  std::string scalar;         ///< kScalar: the text, unquoted
+  std::vector<Node> items;    ///< kSequence
+  std::vector<NodeKey> keys;  ///< kMap, in the order of the file
+};
+
+/// A key of a map and its value, whose place is that of the key.
+struct NodeKey {
+  std::string name;
+  Node value;
 };
 
 /// Parses YAML text. Throws InputError with file and line on malformed YAML and on a key given twice.
