@@ -9,6 +9,7 @@ usage: check_structure.py SOURCE_DIR
 - Public headers include no foreign library but Eigen; mrpt_bridge may include MRPT in its own.
 - Private headers are included from their own room only.
 - Libraries do not print: no std::cout, std::cerr or printf to them.
+- The table in docs/architecture.md is that of cmake/layers.txt.
 - Every C++ file starts with the two SPDX lines; every header with #pragma once.
 Prints one line "FILE:LINE: PROBLEM" for each finding; exit code 1 when there is any.
 """
@@ -87,9 +88,25 @@ def check_room(room, folder, floors):
                 yield path, number, "a library prints; report through core/progress.hpp"
 
 
+def check_guide(path, floors):
+    """The guide's table names every room with its floor."""
+    told = {}
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        match = re.match(r"\| (\d+) \| (\w+) \|", line)
+        if match:
+            told[match.group(2)] = int(match.group(1))
+            if floors.get(match.group(2)) != int(match.group(1)):
+                yield path, number, f"room {match.group(2)} stands otherwise in cmake/layers.txt"
+    for room in floors:
+        if room not in told:
+            yield path, 1, f"room {room} is missing in the table"
+
+
 def check_tree(root):
     """Yields (path, line number, problem)."""
     floors = read_layers(root / "cmake" / "layers.txt")
+    if (root / "docs" / "architecture.md").exists():
+        yield from check_guide(root / "docs" / "architecture.md", floors)
     for folder in sorted(p.parent for p in (root / "libs").glob("*/CMakeLists.txt")):
         yield from check_room(folder.name, folder, floors)
     for wing in ("apps", "libs", "tests", "benchmarks", "examples"):

@@ -62,6 +62,12 @@ class CheckStructureTest(unittest.TestCase):
         self.source("apps/loopmark/a.cpp", 'std::printf("hello");\n')
         self.assertEqual(len(self.problems()), 1)
 
+    def test_the_guide_tells_the_same_table(self):
+        self.write("docs/architecture.md", "| 1 | core | poses |\n| 3 | cloud | points |\n| 2 | search | trees |\n")
+        self.assertEqual(self.problems(), [
+            "docs/architecture.md:2: room cloud stands otherwise in cmake/layers.txt",
+            "docs/architecture.md:1: room mrpt_bridge is missing in the table"])
+
     def test_form_of_files(self):
         self.write("tests/core/a_test.cpp", "int main() {}\n")
         self.write("apps/loopmark/a.hpp", HEAD)
