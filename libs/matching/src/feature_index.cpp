@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace loopmark {
@@ -174,13 +175,29 @@ void FeatureIndex::search_leaf(Search& search, std::size_t leaf) const {
   }
 }
 
+namespace {
+
+/// The leaves whose bound is below the threshold, the nearest first: as keys with the leaf in the low half. Bounds are
+/// not negative, so their bits are in the order of their values.
+std::size_t nearest_leaves(const std::vector<float>& bound, float threshold, std::vector<std::uint64_t>& keys) {
+  std::size_t count = 0;
+  for (std::size_t leaf = 0; leaf < bound.size(); ++leaf) {
+    keys[count] = static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(bound[leaf])) << 32U | leaf;
+    count += bound[leaf] < threshold ? 1U : 0U;
+  }
+  std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count));
+  return count;
+}
+
+}  // namespace
+
 void FeatureIndex::search(const FeatureIndex& queries, std::size_t begin, std::size_t end, double slack,
                           std::vector<NearestTwo>& out) const {
   if (order_.empty()) {
     return;
   }
   std::vector<float> bound(leaves_);
-  std::vector<std::uint32_t> candidates;
+  std::vector<std::uint64_t> candidates(leaves_ + 1);
   std::array<std::size_t, 2> before{0, std::min<std::size_t>(1, order_.size() - 1)};
   for (std::size_t i = begin; i < end; ++i) {
     Search search{queries.row(i), queries.heads_.data() + i * kBound, static_cast<float>(slack), {}, {}};
@@ -188,20 +205,17 @@ void FeatureIndex::search(const FeatureIndex& queries, std::size_t begin, std::s
     offer(search, before[0]);
     offer(search, before[1]);
     kernels::box_bounds(search.head, low_.data(), high_.data(), leaves_, bound.data());
-    candidates.clear();
-    for (std::uint32_t leaf = 0; leaf < leaves_; ++leaf) {
-      if (bound[leaf] < search.threshold()) {
-        candidates.push_back(leaf);
-      }
-    }
-    std::sort(candidates.begin(), candidates.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return bound[a] < bound[b] || (bound[a] == bound[b] && a < b);
-    });
-    for (const std::uint32_t leaf : candidates) {
+    const auto home = static_cast<std::size_t>(std::min_element(bound.begin(), bound.end()) - bound.begin());
+    search_leaf(search, home);
+    const std::size_t count = nearest_leaves(bound, search.threshold(), candidates);
+    for (std::size_t c = 0; c < count; ++c) {
+      const auto leaf = static_cast<std::size_t>(candidates[c] & 0xFFFFFFFFU);
       if (!(bound[leaf] < search.threshold())) {
         break;
       }
-      search_leaf(search, leaf);
+      if (leaf != home) {
+        search_leaf(search, leaf);
+      }
     }
     out[queries.order_[i]] = search.best;
     before = search.best.second == kNoNeighbour ? before : search.places;

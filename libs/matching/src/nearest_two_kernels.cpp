@@ -39,23 +39,21 @@ void box_bounds(const float* q, const float* low, const float* high, std::size_t
 LOOPMARK_DISPATCH
 std::size_t leaf_hits(const float* q, const float* leaf, float threshold, std::uint8_t* __restrict hits) {
   constexpr std::size_t kChunk = 16;
+  using Vector = float __attribute__((vector_size(4 * kChunk), aligned(4)));
+  using Words = long long __attribute__((vector_size(4 * kChunk)));
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < kLeaf; begin += kChunk) {
-    float bound[kChunk] = {};
+    Vector bound{};
     for (std::size_t d = 0; d < kBound; ++d) {
-      for (std::size_t l = 0; l < kChunk; ++l) {
-        const float gap = leaf[d * kLeaf + begin + l] - q[d];
-        bound[l] += gap * gap;
-      }
+      const Vector gap = *reinterpret_cast<const Vector*>(leaf + d * kLeaf + begin) - q[d];
+      bound += gap * gap;
     }
-    std::int32_t any = 0;
-    for (std::size_t l = 0; l < kChunk; ++l) {
-      any |= bound[l] < threshold ? 1 : 0;
-    }
-    if (any != 0) {
+    const auto below = bound < threshold;
+    const Words any = (Words)below;
+    if (((any[0] | any[1]) | (any[2] | any[3]) | (any[4] | any[5]) | (any[6] | any[7])) != 0) {
       for (std::size_t l = 0; l < kChunk; ++l) {
         hits[count] = static_cast<std::uint8_t>(begin + l);
-        count += bound[l] < threshold ? 1U : 0U;
+        count -= static_cast<std::size_t>(static_cast<std::ptrdiff_t>(below[l]));
       }
     }
   }
