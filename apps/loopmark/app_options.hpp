@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "loopmark/evaluation/balance_options.hpp"
 #include "loopmark/registration/engine_options.hpp"
 
 namespace loopmark::app {
@@ -11,11 +12,13 @@ namespace loopmark::app {
 /// Every option of every room; the sections of the YAML file.
 struct AppOptions {
   EngineOptions registration;
+  BalanceOptions balance;
 };
 
 template <class Visitor>
 void describe(Visitor& v, AppOptions& o) {
   v.section("registration", o.registration, "global registration of two scans");
+  v.section("balance", o.balance, "choice of balanced sets of frame pairs");
 }
 
 /// All options as commented YAML, which --config reads back: `loopmark config dump`, a run's config.yaml.

@@ -71,7 +71,11 @@ ScanLoader make_loader(const EvaluateArguments& arguments, const AlgorithmList& 
 
 }  // namespace
 
-int run_evaluate(const EvaluateArguments& arguments, const Globals& globals) {
+int run_evaluate(const EvaluateArguments& given, const Globals& globals) {
+  EvaluateArguments arguments = given;
+  if (std::filesystem::is_directory(arguments.set)) {
+    arguments.set /= "pairs.txt";
+  }
   if (arguments.set.empty() || arguments.output.empty()) {
     throw InputError("loopmark evaluate SET -o RESULT: the pairs file and the result folder are needed (see --help)");
   }
