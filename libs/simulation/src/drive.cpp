@@ -69,7 +69,7 @@ struct Ripple {
 
 void check(const DriveOptions& o) {
   require_option(o.length_m >= 10.0 && o.length_m <= 1e6, "length_m", "must lie between 10 and 1000000 metres");
-  require_option(o.rate_hz == 0.0 || (o.rate_hz >= 1.0 && o.rate_hz <= 30.0), "rate_hz", "must lie between 1 and 30 Hz, or be 0");
+  require_option(o.rate_hz == 0.0 || (o.rate_hz >= 5.0 && o.rate_hz <= 20.0), "rate_hz", "must lie between 5 and 20 Hz, or be 0");
   require_option(o.halt_every_m >= 0.0, "halt_every_m", "must not be negative");
   require_option(o.vehicles >= 0 && o.vehicles <= 5000, "vehicles", "must lie between 0 and 5000");
   require_option(o.pedestrians >= 0 && o.pedestrians <= 5000, "pedestrians", "must lie between 0 and 5000");

@@ -92,14 +92,18 @@ double tour_score(const Town& town, const Route& route, double length) {
     alike_again = alike_again || r.near_identical;
   }
   const double scale = std::max(1.0, length / 1500.0);
-  const auto wanted = [&](RevisitKind kind, double count) { return std::min(1.2 * count * scale, 1.0 * counts[kind]); };
+  // A kind that is there often enough counts for much, more of it for little.
+  const auto wanted = [&](RevisitKind kind, double count) {
+    const double share = counts[kind] / (count * scale);
+    return 3.0 * std::min(1.0, share) + 0.3 * std::min(2.0, share);
+  };
   const double alike = share_alike(town.roads, path);
   const bool roundabout = std::any_of(route.edges.begin(), route.edges.end(), [&](int e) {
     return town.roads.nodes[town.roads.edges[e].from].roundabout || town.roads.nodes[town.roads.edges[e].to].roundabout;
   });
-  return 1.0 * wanted(RevisitKind::kSame, 3) + 2.0 * wanted(RevisitKind::kOpposite, 3) +
-         2.0 * wanted(RevisitKind::kCrossing, 2) + (alike > 0.1 && alike < 0.4 ? 2.0 : 0.0) + (alike_again ? 1.0 : 0.0) +
-         (roundabout ? 1.0 : 0.0) + (u_turns(route) >= 1 && u_turns(route) <= 2.0 * scale ? 1.0 : 0.0);
+  return wanted(RevisitKind::kSame, 3) + wanted(RevisitKind::kOpposite, 3) + wanted(RevisitKind::kCrossing, 2) +
+         (alike > 0.1 && alike < 0.4 ? 1.0 : 0.0) + (alike_again ? 0.5 : 0.0) + (roundabout ? 0.5 : 0.0) +
+         (u_turns(route) >= 1 && u_turns(route) <= 2.0 * scale ? 0.5 : 0.0);
 }
 
 double explore_score(const Route& route) {
