@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "evaluate_report.hpp"
 #include "evaluate_run.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/result_tables.hpp"
@@ -45,6 +46,7 @@ void add_run_options(CLI::App& command, EvaluateArguments& a) {
   command.add_option("--pairs-at-once", a.pairs_at_once,
                      "pairs worked on at the same time; 0: one for each thread; 1 for undisturbed times");
   command.add_option("--shard", a.shard, "k/N: only part k of N of the pairs");
+  command.add_option("--pictures", a.pictures, "failed pairs of each algorithm that report.html draws (24)");
   command.add_flag("--no-check", a.no_check, "do not compare the overlaps of a few pairs with the scans first");
 }
 
@@ -59,7 +61,10 @@ void set_up_merge(CLI::App& command, MergeArguments& a, std::function<int()>& ch
   merge->add_option("-o,--output", a.output, "folder for the joined result; default: the first");
   merge->callback([&a, &chosen] {
     chosen = [&a] {
-      print_overview(merge_results(a.results, a.output.empty() ? a.results.front() : a.output));
+      const std::filesystem::path target = a.output.empty() ? a.results.front() : a.output;
+      const StoredResult result = merge_results(a.results, target);
+      write_evaluation_report(target, result, {}, {}, 0);
+      print_overview(result);
       return 0;
     };
   });

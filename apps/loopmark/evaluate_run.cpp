@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "evaluate_algorithms.hpp"
+#include "evaluate_report.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/evaluation/experiment.hpp"
@@ -51,10 +52,11 @@ void check_frames(const ExperimentTask& task, const Dataset& data) {
   }
 }
 
-/// The scans of the task, once they are known to be the right ones; empty when nothing needs scans.
+/// The scans of the task, once they are known to be the right ones; empty when nothing needs scans and no
+/// data is given.
 ScanLoader make_loader(const EvaluateArguments& arguments, const AlgorithmList& algorithms, ExperimentTask& task) {
   const bool needed = std::any_of(algorithms.begin(), algorithms.end(), [](const auto& a) { return a->needs_scans(); });
-  if (!needed) {
+  if (!needed && arguments.data.empty()) {
     return {};
   }
   if (arguments.data.empty()) {
@@ -90,8 +92,9 @@ int run_evaluate(const EvaluateArguments& given, const Globals& globals) {
   }
   const StoredResult result = read_result(arguments.output);
   write_products(arguments.output, result);
+  write_evaluation_report(arguments.output, result, load, task.perturbations, arguments.pictures);
   print_overview(result);
-  std::printf("written to %s\n", arguments.output.c_str());
+  std::printf("written to %s (report.html, summary.json, results.csv, tables/)\n", arguments.output.c_str());
   return 0;
 }
 
