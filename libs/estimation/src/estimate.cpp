@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/estimation/estimate.hpp"
+
+#include <cstdio>
+
+namespace loopmark {
+
+const char* to_string(EstimateStop stop) {
+  switch (stop) {
+    case EstimateStop::kDone:
+      return "done";
+    case EstimateStop::kConfident:
+      return "confident";
+    case EstimateStop::kIterationLimit:
+      return "iteration limit";
+    case EstimateStop::kTimeLimit:
+      return "time limit";
+    case EstimateStop::kTooFewMatches:
+      return "too few matches";
+  }
+  return "";
+}
+
+std::string Estimate::summary() const {
+  char line[160];
+  std::snprintf(line, sizeof line, "%s: %zu inliers, score %.1f, %zu iterations, %zu models, %zu scored, %.4f s",
+                to_string(stop), inliers.size(), score, iterations, models, scored, seconds);
+  return line;
+}
+
+}  // namespace loopmark
