@@ -5,18 +5,23 @@
 #include <string>
 
 #include "loopmark/evaluation/balance_options.hpp"
+#include "loopmark/io/dataset.hpp"
 #include "loopmark/registration/engine_options.hpp"
 
 namespace loopmark::app {
 
 /// Every option of every room; the sections of the YAML file.
 struct AppOptions {
+  LogOptions log;
+  DatasetOptions dataset;
   EngineOptions registration;
   BalanceOptions balance;
 };
 
 template <class Visitor>
 void describe(Visitor& v, AppOptions& o) {
+  v.section("log", o.log, "reading of drive logs");
+  v.section("dataset", o.dataset, "data sets of many drives");
   v.section("registration", o.registration, "global registration of two scans");
   v.section("balance", o.balance, "choice of balanced sets of frame pairs");
 }

@@ -81,7 +81,9 @@ void take_sweep(FileLogParts& parts, const fs::path& base) {
   if (parts.options.rebuild_times == RebuildTimes::kNever) {
     return;
   }
-  parts.info.sweep = hint.model;
+  if (hint.motion_compensated != true) {
+    parts.info.sweep = hint.model;  // the points of a compensated scan need no times
+  }
   if (parts.options.rebuild_times != RebuildTimes::kAuto) {
     SweepModel model = hint.model.value_or(SweepModel{});
     model.clockwise = parts.options.rebuild_times == RebuildTimes::kClockwise;

@@ -16,7 +16,7 @@ namespace loopmark {
 struct DatasetOptions {
   std::string layout = "auto";    ///< forces a layout
   std::string version = "auto";   ///< nuScenes: v1.0-trainval, v1.0-test, v1.0-mini
-  LogOptions log;                 ///< for the drives
+  LogOptions log;                 ///< for the drives; a section of its own where options come from a file
 };
 
 template <class Visitor>
@@ -24,7 +24,6 @@ void describe(Visitor& v, DatasetOptions& o) {
   v.field("layout", o.layout,
           "auto, or the layout to force: kitti-odometry, nuscenes, apollo-southbay, mulran, logs");
   v.field("version", o.version, "nuScenes tables: auto, v1.0-trainval, v1.0-test or v1.0-mini");
-  v.section("log", o.log, "reading of the drives");
 }
 
 /// One drive of a data set.
