@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "evaluate_paper.hpp"
 #include "evaluate_report.hpp"
 #include "evaluate_run.hpp"
 #include "loopmark/core/error.hpp"
@@ -22,6 +23,8 @@ Examples:
       the registration engine on the pairs of a set; sessions.txt beside the set names the log of each session
   loopmark evaluate pairs.txt --data LOGS --algorithms engine --command "mine=python3 mine.py" --refine icp -o RESULT
       beside a program of yours that speaks the line protocol (docs/evaluation.md), each with and without ICP
+  loopmark evaluate compare RESULT_A RESULT_B
+  loopmark evaluate paper refinement RESULT -o TABLES
   loopmark evaluate merge RESULT
       makes the tables when all shards (--shard 1/4 ... 4/4) are done
 )";
@@ -70,6 +73,25 @@ void set_up_merge(CLI::App& command, MergeArguments& a, std::function<int()>& ch
   });
 }
 
+void set_up_paper(CLI::App& command, PaperArguments& a, std::function<int()>& chosen) {
+  CLI::App* paper = command.add_subcommand("paper", "one of the paper's tables or figures from results, theirs beside");
+  paper->add_option("table", a.table, "which one")->required()->check(CLI::IsMember(paper_table_names()));
+  paper->add_option("inputs", a.inputs,
+                    "result folders; matrix, running-times, match-sizes: TEST:TRAIN=RESULT; sets: NAME=PAIRS_FILE")
+      ->required();
+  paper->add_option("--algorithm", a.algorithm, "failures: of this algorithm (the first)");
+  paper->add_option("-o,--output", a.output, "folder for the table as .md, .tex and .html");
+  paper->callback([&a, &chosen] { chosen = [&a] { return print_paper_table(a); }; });
+}
+
+void set_up_compare(CLI::App& command, CompareArguments& a, std::function<int()>& chosen) {
+  CLI::App* compare = command.add_subcommand("compare", "two results of one set side by side, pair by pair");
+  compare->add_option("first", a.first, "result folder A")->required();
+  compare->add_option("second", a.second, "result folder B")->required();
+  compare->add_option("-o,--output", a.output, "folder for compare.csv and compare.html");
+  compare->callback([&a, &chosen] { chosen = [&a] { return compare_results(a); }; });
+}
+
 }  // namespace
 
 void print_overview(const StoredResult& result) {
@@ -88,6 +110,8 @@ Action set_up_evaluate(CLI::App& command, const Globals& globals) {
   struct Arguments {
     EvaluateArguments run;
     MergeArguments merge;
+    PaperArguments paper;
+    CompareArguments compare;
     std::function<int()> chosen;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -96,6 +120,8 @@ Action set_up_evaluate(CLI::App& command, const Globals& globals) {
   add_input_options(command, arguments->run);
   add_run_options(command, arguments->run);
   set_up_merge(command, arguments->merge, arguments->chosen);
+  set_up_paper(command, arguments->paper, arguments->chosen);
+  set_up_compare(command, arguments->compare, arguments->chosen);
   return [arguments, &globals] {
     return arguments->chosen ? arguments->chosen() : run_evaluate(arguments->run, globals);
   };

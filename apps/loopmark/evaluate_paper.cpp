@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate_paper.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <map>
+
+#include "evaluate_report.hpp"
+#include "loopmark/core/error.hpp"
+#include "loopmark/core/files.hpp"
+#include "loopmark/evaluation/paper_tables.hpp"
+#include "loopmark/evaluation/set_statistics.hpp"
+#include "loopmark/report/page.hpp"
+
+namespace loopmark::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A table and the plots that go with it.
+struct Figure {
+  TextTable table;
+  std::vector<report::Plot> plots;
+};
+
+/// "NAME=PATH", or PATH named after itself.
+std::pair<std::string, std::string> named_input(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  return equals == std::string::npos ? std::pair{fs::path(text).stem().string(), text}
+                                     : std::pair{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+StoredResult first_result(const PaperArguments& a) { return read_result(a.inputs.front()); }
+
+std::vector<DomainResult> domain_results(const PaperArguments& a) {
+  std::vector<DomainResult> results;
+  for (const std::string& input : a.inputs) {
+    const auto [name, path] = named_input(input);
+    const std::size_t colon = name.find(':');
+    const std::string test = name.substr(0, colon);
+    results.push_back({test, colon == std::string::npos ? "-" : name.substr(colon + 1), read_result(path)});
+  }
+  return results;
+}
+
+std::vector<double> as_doubles(const std::vector<std::size_t>& counts) { return {counts.begin(), counts.end()}; }
+
+Figure sets_figure(const PaperArguments& a) {
+  std::vector<std::pair<std::string, std::vector<RegistrationPair>>> sets;
+  for (const std::string& input : a.inputs) {
+    const auto [name, path] = named_input(input);
+    sets.emplace_back(name, read_pair_set(path));
+  }
+  Figure figure{paper_sets_table(sets), {}};
+  for (const PairQuantity& quantity : pair_quantities()) {
+    report::Plot plot(quantity.name, quantity.name, "pairs [%]");
+    plot.size(420, 260);
+    for (const auto& [name, pairs] : sets) {
+      std::vector<double> shares = as_doubles(counts_in_bins(pairs, quantity));
+      for (double& share : shares) {
+        share *= 100.0 / static_cast<double>(pairs.size());
+      }
+      report::Style style;
+      style.opacity = 0.5;
+      plot.bars(name, quantity.edges, shares, style);
+    }
+    figure.plots.push_back(plot);
+  }
+  return figure;
+}
+
+Figure failures_figure(const PaperArguments& a) {
+  const StoredResult result = first_result(a);
+  const std::string algorithm = a.algorithm.empty() ? result.experiment.algorithms.front() : a.algorithm;
+  Figure figure{paper_failures_table(result, algorithm), {}};
+  for (const FailureHistogram& histogram : failure_histograms(result, algorithm)) {
+    std::vector<double> all(histogram.successes.size());
+    std::vector<double> ratio(histogram.successes.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i] = static_cast<double>(histogram.successes[i] + histogram.failures[i]);
+      ratio[i] = all[i] > 0.0 ? 100.0 * static_cast<double>(histogram.failures[i]) / all[i] : 0.0;
+    }
+    report::Plot counts(histogram.quantity, histogram.quantity, "pairs");
+    counts.size(420, 260).bars("all", histogram.edges, all).bars("failed", histogram.edges, as_doubles(histogram.failures));
+    report::Plot ratios(histogram.quantity + ": failed", histogram.quantity, "failed [%]");
+    ratios.size(420, 260).bars("", histogram.edges, ratio);
+    figure.plots.push_back(counts);
+    figure.plots.push_back(ratios);
+  }
+  return figure;
+}
+
+Figure ablation_figure(const PaperArguments& a) {
+  const StoredResult result = first_result(a);
+  report::Plot plot("Recall against time, hulls of repeated runs", "mean seconds a pair", "recall [%]");
+  plot.size(760, 480);
+  std::size_t colour = 0;
+  for (const Variant& variant : variants_of(result)) {
+    std::vector<double> x, y;
+    for (const RunPoint& point : variant.hull) {
+      x.push_back(point.seconds);
+      y.push_back(100.0 * point.recall);
+    }
+    report::Style style;
+    style.colour = report::palette(colour++);
+    style.opacity = 0.35;
+    if (x.size() > 2) {
+      plot.polygon("", x, y, style);
+    }
+    style.opacity = 1.0;
+    style.radius = 5.0;
+    plot.points(variant.name, {variant.mean.seconds}, {100.0 * variant.mean.recall}, style);
+  }
+  return {paper_ablation_table(result), {plot}};
+}
+
+using Maker = std::function<Figure(const PaperArguments&)>;
+
+const std::vector<std::pair<std::string, Maker>>& makers() {
+  static const std::vector<std::pair<std::string, Maker>> table = {
+      {"evaluation", [](const PaperArguments& a) { return Figure{paper_evaluation_table(first_result(a), false), {}}; }},
+      {"cross-domain", [](const PaperArguments& a) { return Figure{paper_evaluation_table(first_result(a), true), {}}; }},
+      {"matrix", [](const PaperArguments& a) { return Figure{paper_matrix_table(domain_results(a)), {}}; }},
+      {"running-times", [](const PaperArguments& a) { return Figure{paper_times_table(domain_results(a)), {}}; }},
+      {"match-sizes", [](const PaperArguments& a) { return Figure{paper_match_sizes_table(domain_results(a)), {}}; }},
+      {"refinement", [](const PaperArguments& a) { return Figure{paper_refinement_table(first_result(a)), {}}; }},
+      {"ransac-ablation", ablation_figure},
+      {"gpf-ablation", ablation_figure},
+      {"sets", sets_figure},
+      {"failures", failures_figure}};
+  return table;
+}
+
+void write_figure(const fs::path& folder, const std::string& name, const Figure& figure) {
+  fs::create_directories(folder);
+  write_file_atomically(folder / (name + ".md"), to_markdown(figure.table));
+  write_file_atomically(folder / (name + ".tex"), to_latex(figure.table));
+  report::Page page(figure.table.caption);
+  page.table(report_table(figure.table)).paragraph(figure.table.note);
+  for (std::size_t i = 0; i < figure.plots.size(); i += 2) {
+    page.plots({figure.plots.begin() + static_cast<std::ptrdiff_t>(i),
+                figure.plots.begin() + static_cast<std::ptrdiff_t>(std::min(i + 2, figure.plots.size()))});
+  }
+  write_file_atomically(folder / (name + ".html"), page.html());
+}
+
+}  // namespace
+
+std::vector<std::string> paper_table_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, maker] : makers()) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+int print_paper_table(const PaperArguments& a) {
+  const auto maker = std::find_if(makers().begin(), makers().end(), [&](const auto& m) { return m.first == a.table; });
+  if (maker == makers().end()) {
+    throw InputError("no table of the paper is called " + a.table);
+  }
+  const Figure figure = maker->second(a);
+  std::printf("%s", to_markdown(figure.table).c_str());
+  if (!a.output.empty()) {
+    write_figure(a.output, a.table, figure);
+    std::printf("\nwritten to %s (%s.md, .tex, .html)\n", a.output.c_str(), a.table.c_str());
+  }
+  return 0;
+}
+
+}  // namespace loopmark::app
