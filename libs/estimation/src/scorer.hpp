@@ -45,6 +45,8 @@ class Scorer {
     return kernels::msac_score(arrays_, m, inverse_squared_, static_cast<float>(best));
   }
 
+  const kernels::PairArrays& arrays() const { return arrays_; }
+
  private:
   std::array<std::vector<float>, 6> data_;
   kernels::PairArrays arrays_;

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "consistency_kernels.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include "loopmark/core/dispatch.hpp"
+
+namespace loopmark::kernels {
+
+LOOPMARK_DISPATCH
+void consistency_row(const PairArrays& pairs, std::size_t i, float tolerance, std::uint8_t* __restrict consistent) {
+  const float *sx = pairs.v[0], *sy = pairs.v[1], *sz = pairs.v[2];
+  const float *tx = pairs.v[3], *ty = pairs.v[4], *tz = pairs.v[5];
+  const float px = sx[i], py = sy[i], pz = sz[i];
+  const float qx = tx[i], qy = ty[i], qz = tz[i];
+  for (std::size_t j = 0; j < pairs.count; ++j) {
+    const float ax = sx[j] - px;
+    const float ay = sy[j] - py;
+    const float az = sz[j] - pz;
+    const float bx = tx[j] - qx;
+    const float by = ty[j] - qy;
+    const float bz = tz[j] - qz;
+    const float gap = std::sqrt(ax * ax + ay * ay + az * az) - std::sqrt(bx * bx + by * by + bz * bz);
+    consistent[j] = std::fabs(gap) < tolerance ? 1 : 0;
+  }
+}
+
+LOOPMARK_DISPATCH
+std::size_t common_bits(const std::uint64_t* a, const std::uint64_t* b, std::size_t words) {
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < words; ++w) {
+    count += static_cast<std::size_t>(std::popcount(a[w] & b[w]));
+  }
+  return count;
+}
+
+}  // namespace loopmark::kernels
