@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Global planar alignment of two scans: whitened correlation of their structure over all yaws.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "loopmark/birdseye/structure.hpp"
+
+namespace loopmark::birdseye {
+
+struct CorrelationOptions {
+  std::size_t side = 256;         ///< cells a side of the correlation grid, a power of two
+  double cell_m = 0.8;            ///< edge of a cell; side * cell_m / 2 is the longest translation that is searched
+  double yaw_step_deg = 3.0;      ///< step of the yaw search
+  double blur_m = 0.4;            ///< standard deviation of the smoothing
+  std::size_t peaks = 40;         ///< distinct peaks that are returned
+  double distinct_m = 3.0;        ///< peaks nearer than this and ...
+  double distinct_deg = 5.0;      ///< ... turned by less than this are one
+};
+
+/// Source cells turned by yaw (radians) and moved by (x, y) fall onto target cells.
+struct PlanarHypothesis {
+  double yaw = 0.0;
+  double x = 0.0;      ///< metres
+  double y = 0.0;
+  double score = 0.0;  ///< height of the peak in standard deviations of its surface
+};
+
+/// For every yaw: c = F^-1( sum over height bands of F(T) conj(F(S)) / |F(T) F(S)| ); the peaks of all surfaces, distinct ones, highest first.
+/// Keeping only the phase keeps the dense neighbourhood of either sensor from
+/// correlating with itself: the zero-motion alias. The same bytes at any number of threads.
+std::vector<PlanarHypothesis> correlate(const std::vector<StructureCell>& source,
+                                        const std::vector<StructureCell>& target, const CorrelationOptions& options);
+
+}  // namespace loopmark::birdseye
