@@ -12,7 +12,7 @@
 namespace loopmark::birdseye {
 namespace {
 
-constexpr std::size_t kBlock = 8;             // cells; one peak a block
+constexpr std::size_t kBlock = 8;  // cells; one peak a block
 constexpr std::size_t kPeaksPerSurface = 4;
 constexpr float kSmallPower = 1e-3F;  // keeps empty frequencies from dividing by zero
 
@@ -71,8 +71,7 @@ class Correlator {
   static float whitening(float re, float im) { return 1.0F / std::sqrt(re * re + im * im + kSmallPower); }
 
   /// Bilinear drawing of the turned cells; whatever leaves the grid is dropped.
-  void draw(const std::vector<StructureCell>& cells, double yaw, std::size_t band,
-            std::vector<float>& image) const {
+  void draw(const std::vector<StructureCell>& cells, double yaw, std::size_t band, std::vector<float>& image) const {
     const auto c = static_cast<float>(std::cos(yaw) / options_.cell_m);
     const auto s = static_cast<float>(std::sin(yaw) / options_.cell_m);
     const auto side = static_cast<int>(options_.side);
@@ -114,7 +113,8 @@ class Correlator {
     }
   }
 
-  void multiply_pair(const ComplexGrid& z, const ComplexGrid& target, std::size_t k, std::size_t m, ComplexGrid& sum) const {
+  void multiply_pair(const ComplexGrid& z, const ComplexGrid& target, std::size_t k, std::size_t m,
+                     ComplexGrid& sum) const {
     // A = (Z[k] + conj Z[m]) / 2, B = (Z[k] - conj Z[m]) / 2i; A[m] = conj A[k], B[m] = conj B[k].
     const float a_re = 0.5F * (z.re[k] + z.re[m]);
     const float a_im = 0.5F * (z.im[k] - z.im[m]);

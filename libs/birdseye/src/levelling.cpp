@@ -14,8 +14,8 @@ namespace {
 
 constexpr float kNear = 3.0F;
 constexpr float kFar = 30.0F;
-constexpr float kThickness = 0.15F;   // metres to either side of the plane
-constexpr float kBelow = 0.5F;        // metres below the plane that speak against it
+constexpr float kThickness = 0.15F;  // metres to either side of the plane
+constexpr float kBelow = 0.5F;       // metres below the plane that speak against it
 constexpr float kBelowWeight = 2.0F;
 constexpr float kMinUpright = 0.82F;  // cosine of 35 degrees
 constexpr int kTrials = 400;

@@ -35,8 +35,8 @@ std::vector<StructureCell> structure_cells(const std::vector<Eigen::Vector3f>& p
     const auto row = static_cast<std::int32_t>(std::floor(p.y() / kStructureCell));
     const std::uint32_t cell = table.insert({column, row, 0});
     if (cell == cells.size()) {
-      cells.push_back({(static_cast<float>(column) + 0.5F) * kStructureCell,
-                       (static_cast<float>(row) + 0.5F) * kStructureCell, 0});
+      cells.push_back(
+          {(static_cast<float>(column) + 0.5F) * kStructureCell, (static_cast<float>(row) + 0.5F) * kStructureCell, 0});
     }
     cells[cell].bands |= band;
   }

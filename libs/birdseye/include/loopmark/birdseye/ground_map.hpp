@@ -12,9 +12,9 @@ namespace loopmark::birdseye {
 /// Height of the ground over a square grid centred on the sensor, levelled frame, metres.
 class GroundMap {
  public:
-  static constexpr int kSide = 100;        ///< cells a side
-  static constexpr float kCell = 2.0F;     ///< metres
-  static constexpr float kSlope = 0.15F;   ///< steepest ground that is followed
+  static constexpr int kSide = 100;       ///< cells a side
+  static constexpr float kCell = 2.0F;    ///< metres
+  static constexpr float kSlope = 0.15F;  ///< steepest ground that is followed
 
   /// Grows the ground outwards from the sensor: a cell's lowest points are ground when they lie within the
   /// slope of the ground nearer to the sensor; else the cell inherits. `points`: levelled frame.

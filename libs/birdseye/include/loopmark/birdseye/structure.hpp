@@ -11,8 +11,8 @@
 
 namespace loopmark::birdseye {
 
-constexpr float kStructureCell = 0.5F;      ///< edge of a structure cell, metres
-constexpr std::size_t kBands = 3;           ///< height bands above the ground: ...
+constexpr float kStructureCell = 0.5F;                                           ///< edge of a structure cell, metres
+constexpr std::size_t kBands = 3;                                                ///< height bands above the ground: ...
 constexpr std::array<float, kBands + 1> kBandEdges = {0.4F, 1.5F, 3.0F, 15.0F};  ///< ... their edges, metres
 
 /// A cell of the ground plane with structure above it; levelled frame, metres.

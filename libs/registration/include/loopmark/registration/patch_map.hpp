@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// A scan as small planar patches: one for each occupied voxel.
+#pragma once
+
+#include <vector>
+
+#include "loopmark/search/voxel_table.hpp"
+
+namespace loopmark {
+
+/// The points of one voxel, summed up. Levelled frame, metres.
+struct Patch {
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
+  float planarity = 0.0F;  ///< 0: a line or a blob, 1: a plane
+  float height = 0.0F;     ///< of the mean above the ground below it, metres
+};
+
+/// Patches by voxel; nearest-patch queries look at the voxel and its 26 neighbours.
+class PatchMap {
+ public:
+  PatchMap() : table_(0) {}
+  /// `patches`: at most one a voxel of edge size_m; others of the same voxel are dropped.
+  PatchMap(std::vector<Patch> patches, float size_m);
+
+  float size_m() const { return size_m_; }
+  const std::vector<Patch>& patches() const { return patches_; }
+
+  /// The patch whose mean is nearest to `point` and nearer than `max_distance` (at most size_m for an exact
+  /// answer); null when there is none.
+  const Patch* nearest(const Eigen::Vector3f& point, float max_distance) const;
+
+ private:
+  VoxelTable table_;
+  std::vector<Patch> patches_;
+  float size_m_ = 1.0F;
+};
+
+/// One patch for each voxel of edge size_m: the mean of its points; the normal and the planarity of all points in it
+/// and its 26 neighbours. `points`: levelled frame, dense.
+std::vector<Patch> make_patches(const std::vector<Eigen::Vector3f>& points, float size_m);
+
+/// Joins the patches of fine voxels into those of voxels `factor` times as wide.
+std::vector<Patch> coarsened(const PatchMap& fine, int factor);
+
+}  // namespace loopmark

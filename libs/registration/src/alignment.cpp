@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "alignment.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace loopmark {
+namespace {
+
+constexpr double kAcross = 0.05;     // weight of the residual inside a plane
+constexpr double kConverged = 1e-4;  // metres and radians
+
+struct NormalEquations {
+  Matrix6d h = Matrix6d::Zero();
+  Vector6d g = Vector6d::Zero();
+  double squares = 0.0;
+  double weights = 0.0;
+  std::size_t used = 0;
+};
+
+/// Adds one patch: r = q - p, weight matrix W = a I + (1 - a) n n^T, Jacobian [-I, hat(p)].
+void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Patch& target, double scale_m) {
+  const Eigen::Vector3d point = p.cast<double>();
+  const Eigen::Vector3d n = target.normal.cast<double>();
+  const Eigen::Vector3d r = target.mean.cast<double>() - point;
+  const double blob = 1.0 - target.planarity;
+  const double across = kAcross + (1.0 - kAcross) * blob * blob * 0.5;
+  const Eigen::Matrix3d w = across * Eigen::Matrix3d::Identity() + (1.0 - across) * n * n.transpose();
+  const Eigen::Vector3d wr = w * r;
+  const double squared = r.dot(wr);
+  const double ratio = 1.0 / (1.0 + squared / (scale_m * scale_m));
+  const double robust = ratio * ratio;
+  const Eigen::Matrix3d k = hat(point);
+  const Eigen::Matrix3d wk = w * k;
+  sum.h.topLeftCorner<3, 3>() += robust * w;
+  sum.h.topRightCorner<3, 3>() -= robust * wk;
+  sum.h.bottomRightCorner<3, 3>() -= robust * k * wk;
+  sum.g.head<3>() += robust * wr;
+  sum.g.tail<3>() += robust * point.cross(wr);
+  sum.squares += robust * squared;
+  sum.weights += robust;
+  ++sum.used;
+}
+
+}  // namespace
+
+Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target, const Pose& start, float reach_m,
+                        double scale_m, int iterations) {
+  Alignment result;
+  result.T_target_source = start;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    const Eigen::Isometry3f T = result.T_target_source.cast<float>();
+    NormalEquations sum;
+    for (const Patch& patch : source) {
+      const Eigen::Vector3f p = T * patch.mean;
+      if (const Patch* partner = target.nearest(p, reach_m)) {
+        add_term(sum, p, *partner, scale_m);
+      }
+    }
+    sum.h.bottomLeftCorner<3, 3>() = sum.h.topRightCorner<3, 3>().transpose();
+    result.used = sum.used;
+    result.information = sum.h;
+    result.residual_m = sum.weights > 0.0 ? std::sqrt(sum.squares / sum.weights) : 0.0;
+    if (sum.used < 20) {
+      break;
+    }
+    const Matrix6d damped = sum.h + 1e-3 * Matrix6d::Identity();
+    const Vector6d step = damped.ldlt().solve(sum.g);
+    result.T_target_source = exp_se3(step) * result.T_target_source;
+    if (step.norm() < kConverged) {
+      break;
+    }
+  }
+  return result;
+}
+
+std::vector<Patch> sampled(const std::vector<Patch>& patches, std::size_t count) {
+  std::vector<const Patch*> structure;
+  std::vector<const Patch*> ground;
+  for (const Patch& patch : patches) {
+    (patch.height > kStructureHeight ? structure : ground).push_back(&patch);
+  }
+  const std::size_t wanted = std::max(count / 2, count - std::min(count, ground.size()));
+  const std::size_t of_structure = std::min(structure.size(), wanted);
+  const std::size_t of_ground = std::min(ground.size(), count - of_structure);
+  std::vector<Patch> chosen;
+  const auto take = [&](const std::vector<const Patch*>& from, std::size_t number) {
+    for (std::size_t i = 0; i < number; ++i) {
+      chosen.push_back(*from[i * from.size() / number]);
+    }
+  };
+  take(structure, of_structure);
+  take(ground, of_ground);
+  return chosen;
+}
+
+}  // namespace loopmark

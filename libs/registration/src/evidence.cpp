@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evidence.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "loopmark/search/voxel_table.hpp"
+
+namespace loopmark {
+namespace {
+
+constexpr std::size_t kAsked = 2000;  // structure patches a direction
+constexpr float kMet = 0.4F;          // metres
+constexpr float kTight = 0.15F;       // metres
+constexpr float kPlanar = 0.5F;
+constexpr float kTestified = 60.0F;   // metres from the other sensor within which free space counts
+constexpr float kSpreadCell = 10.0F;  // metres
+
+/// What all viewpoints of a scan say of a point in its levelled frame: agreement outweighs conflict.
+RangeImage::Sight look_from_all(const std::vector<View>& views, const Eigen::Vector3f& point) {
+  auto verdict = RangeImage::Sight::kUnknown;
+  for (const View& view : views) {
+    const Eigen::Vector3f seen = view.T_level_sensor.inverse().cast<float>() * point;
+    const float range = seen.norm();
+    if (range > kTestified) {
+      continue;
+    }
+    const auto sight = view.image.look_at(seen, 0.8F + 0.02F * range);
+    if (sight == RangeImage::Sight::kAgrees) {
+      return sight;
+    }
+    if (sight == RangeImage::Sight::kConflict || verdict == RangeImage::Sight::kUnknown) {
+      verdict = sight;
+    }
+  }
+  return verdict;
+}
+
+void meet(Testimony& t, const Eigen::Vector3f& p, const Eigen::Vector3f& normal, const Patch& own, const Patch& other) {
+  t.met += 1.0;
+  t.tight += std::abs(other.normal.dot(other.mean - p)) < kTight ? 1.0 : 0.0;
+  if (own.planarity > kPlanar && other.planarity > kPlanar) {
+    const double cosine = normal.dot(other.normal);
+    t.alike += cosine * cosine;
+    t.planar += 1.0;
+  }
+}
+
+std::vector<const Patch*> structure_of(const PreparedScan::Data& scan) {
+  std::vector<const Patch*> structure;
+  for (const Patch& patch : scan.fine.patches()) {
+    if (patch.height > kStructureHeight) {
+      structure.push_back(&patch);
+    }
+  }
+  const std::size_t wanted = std::min(structure.size(), kAsked);
+  std::vector<const Patch*> chosen;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    chosen.push_back(structure[i * structure.size() / wanted]);
+  }
+  return chosen;
+}
+
+/// The weaker direction's share of the structure that is met; as the scans' sizes differ, of the smaller scan.
+double share(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
+
+/// How well the least constrained direction of translation is held: 0 (slides freely) to 1/3.
+double constraint(const Alignment& alignment) {
+  const Eigen::Matrix3d h = alignment.information.topLeftCorner<3, 3>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(h);
+  return std::max(0.0, solver.eigenvalues()[0]) / std::max(1e-9, h.trace());
+}
+
+}  // namespace
+
+Testimony ask(const PreparedScan::Data& source, const PreparedScan::Data& target, const Pose& T_target_source) {
+  const Eigen::Isometry3f T = T_target_source.cast<float>();
+  const Eigen::Matrix3f R = T.linear();
+  Testimony t;
+  VoxelTable cells(256);
+  std::vector<int> met_in_cell;
+  for (const Patch* patch : structure_of(source)) {
+    const Eigen::Vector3f p = T * patch->mean;
+    t.structure += 1.0;
+    if (const Patch* other = target.fine.nearest(p, kMet)) {
+      meet(t, p, R * patch->normal, *patch, *other);
+      const std::uint32_t cell = cells.insert(voxel_of({p.x(), p.y(), 0.0F}, 1.0F / kSpreadCell));
+      met_in_cell.resize(cells.size(), 0);
+      ++met_in_cell[cell];
+      continue;
+    }
+    const auto sight = look_from_all(target.views, p);
+    t.conflict += sight == RangeImage::Sight::kConflict ? 1.0 : 0.0;
+    t.unmet += sight == RangeImage::Sight::kAgrees ? 1.0 : 0.0;
+  }
+  t.sectors = static_cast<double>(std::count_if(met_in_cell.begin(), met_in_cell.end(), [](int n) { return n >= 5; }));
+  return t;
+}
+
+Features features_of(const PreparedScan::Data& source, const PreparedScan::Data& target, const Alignment& alignment,
+                     double peak) {
+  const Testimony a = ask(source, target, alignment.T_target_source);
+  const Testimony b = ask(target, source, alignment.T_target_source.inverse());
+  const double met = a.met + b.met;
+  const double conflict = a.conflict + b.conflict;
+  const double agreement = 0.5 * (share(a.met, a.structure) + share(b.met, b.structure));
+  return {agreement,
+          share(met, met + conflict + a.unmet + b.unmet),
+          share(conflict, a.structure + b.structure),
+          share(a.alike + b.alike, a.planar + b.planar),
+          share(a.tight + b.tight, met),
+          alignment.residual_m,
+          peak,
+          std::log1p(met),
+          std::log1p(0.5 * (a.sectors + b.sectors)),
+          constraint(alignment)};
+}
+
+}  // namespace loopmark

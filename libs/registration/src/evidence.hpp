@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// The numbers that tell a right motion from a wrong one, each independent of how the motion was found.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "alignment.hpp"
+
+namespace loopmark {
+
+/// Counts over both directions: structure of one scan moved into the other.
+struct Testimony {
+  double structure = 0.0;  ///< patches that stand above the ground
+  double met = 0.0;        ///< with a patch of the other scan within 0.4 m
+  double tight = 0.0;      ///< of those: within 0.15 m along the other's normal
+  double alike = 0.0;      ///< sum of (n . n')^2 over planar met patches
+  double planar = 0.0;     ///< planar met patches
+  double conflict = 0.0;   ///< where the other scan's beams passed through
+  double unmet = 0.0;      ///< seen to be there by the other's beams (same range), but no patch met
+  double sectors = 0.0;    ///< cells of a 10 m grid with at least 5 met patches
+};
+
+constexpr std::size_t kFeatures = 10;
+using Features = std::array<double, kFeatures>;
+constexpr std::array<std::string_view, kFeatures> kFeatureNames = {"agreement", "consistency", "conflict", "normals",
+                                                                   "tightness", "residual",    "peak",     "support",
+                                                                   "spread",    "constraint"};
+
+/// Moves the structure of `source` by T (levelled frames) and asks the target's patches and beams.
+Testimony ask(const PreparedScan::Data& source, const PreparedScan::Data& target, const Pose& T_target_source);
+
+/// The features of one hypothesis: what both directions say, the alignment's residual and conditioning, and the height
+/// of its correlation peak (0 where it has none).
+Features features_of(const PreparedScan::Data& source, const PreparedScan::Data& target, const Alignment& alignment,
+                     double peak);
+
+}  // namespace loopmark

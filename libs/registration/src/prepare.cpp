@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "loopmark/birdseye/levelling.hpp"
+#include "loopmark/cloud/voxel.hpp"
+#include "loopmark/core/error.hpp"
+#include "prepared_data.hpp"
+
+namespace loopmark {
+namespace {
+
+constexpr float kEgo = 2.0F;  // metres: nearer points are the car
+constexpr float kFarthest = 120.0F;
+constexpr double kLevelVoxel = 0.3;
+
+std::vector<Eigen::Vector3f> in_range(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<Eigen::Vector3f> kept;
+  kept.reserve(points.size());
+  for (const Eigen::Vector3f& p : points) {
+    const float range = p.norm();
+    if (range > kEgo && range < kFarthest) {  // false for NaN
+      kept.push_back(p);
+    }
+  }
+  return kept;
+}
+
+std::vector<Eigen::Vector3f> moved(std::vector<Eigen::Vector3f> points, const Pose& pose) {
+  const Eigen::Isometry3f T = pose.cast<float>();
+  for (Eigen::Vector3f& p : points) {
+    p = T * p;
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points, double voxel_m) {
+  std::vector<Eigen::Vector3f> kept;
+  for (const std::size_t i : voxel_first_indices(points, voxel_m)) {
+    kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+float rounded(float value, float step) { return std::round(value / step) * step; }
+
+/// Rounds what to_bytes stores, so that a scan read back gives the same answers.
+void round_to_stored(Patch& patch) {
+  for (int axis = 0; axis < 3; ++axis) {
+    patch.mean[axis] = rounded(patch.mean[axis], kMeanStep);
+    patch.normal[axis] = rounded(patch.normal[axis], kNormalStep);
+  }
+  patch.planarity = rounded(patch.planarity, kNormalStep);
+}
+
+PreparedScan finish(PreparedScan::Data data, const std::vector<Eigen::Vector3f>& level_points) {
+  std::vector<Patch> patches = make_patches(level_points, kFinePatch);
+  for (Patch& patch : patches) {
+    round_to_stored(patch);
+  }
+  derive(data, std::move(patches));
+  return PreparedScan(std::make_shared<const PreparedScan::Data>(std::move(data)));
+}
+
+}  // namespace
+
+void derive(PreparedScan::Data& data, std::vector<Patch> patches) {
+  std::vector<Patch> distinct = PatchMap(std::move(patches), kFinePatch).patches();
+  std::vector<Eigen::Vector3f> means;
+  means.reserve(distinct.size());
+  for (const Patch& patch : distinct) {
+    means.push_back(patch.mean);
+  }
+  const birdseye::GroundMap ground(means);
+  for (Patch& patch : distinct) {
+    patch.height = ground.height_above(patch.mean);
+  }
+  data.cells = birdseye::structure_cells(means, ground);
+  data.fine = PatchMap(std::move(distinct), kFinePatch);
+  data.coarse = PatchMap(coarsened(data.fine, kCoarseFactor), kFinePatch * kCoarseFactor);
+}
+
+PreparedScan prepare_scan(const PointCloud& cloud, const EngineOptions& options) {
+  return prepare_submap({cloud}, {Pose::Identity()}, options);
+}
+
+PreparedScan prepare_submap(const std::vector<PointCloud>& clouds, const std::vector<Pose>& T_submap_scan,
+                            const EngineOptions& /*options*/) {
+  if (clouds.size() != T_submap_scan.size() || clouds.empty()) {
+    throw InputError("a submap needs one pose for each of its scans, and at least one scan");
+  }
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::vector<Eigen::Vector3f>> seen;
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    seen.push_back(in_range(clouds[i].points));
+    const auto in_submap = moved(seen.back(), T_submap_scan[i]);
+    points.insert(points.end(), in_submap.begin(), in_submap.end());
+  }
+  const birdseye::Levelling levelling = birdseye::find_levelling(thinned(points, kLevelVoxel));
+  PreparedScan::Data data;
+  data.T_level_sensor = levelling.T_level_sensor;
+  data.ground_share = levelling.ground_share;
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    data.views.push_back({levelling.T_level_sensor * T_submap_scan[i], RangeImage(seen[i])});
+  }
+  return finish(std::move(data), moved(std::move(points), levelling.T_level_sensor));
+}
+
+}  // namespace loopmark

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a PreparedScan holds.
+#pragma once
+
+#include "loopmark/birdseye/structure.hpp"
+#include "loopmark/registration/engine.hpp"
+#include "loopmark/registration/patch_map.hpp"
+#include "loopmark/registration/range_image.hpp"
+
+namespace loopmark {
+
+/// One viewpoint: where its sensor stood and what its beams saw.
+struct View {
+  Pose T_level_sensor = Pose::Identity();
+  RangeImage image;
+};
+
+struct PreparedScan::Data {
+  Pose T_level_sensor = Pose::Identity();      ///< of the scan, or of the submap's frame
+  double ground_share = 0.0;                   ///< share of the near points on the ground plane; 0: none found
+  PatchMap fine;                               ///< 0.4 m
+  PatchMap coarse;                             ///< 1.2 m
+  std::vector<birdseye::StructureCell> cells;  ///< for the bird's-eye-view correlation
+  std::vector<View> views;
+};
+
+constexpr float kFinePatch = 0.4F;
+constexpr int kCoarseFactor = 3;
+constexpr float kMeanStep = 0.005F;           ///< metres: means are kept in these steps, so that stored scans are exact
+constexpr float kNormalStep = 1.0F / 127.0F;  ///< of normals and planarity
+constexpr float kStructureHeight = 0.5F;      ///< patches higher above the ground than this are structure, metres
+
+/// Fills what follows from the patches: the maps and the cells.
+void derive(PreparedScan::Data& data, std::vector<Patch> patches);
+
+}  // namespace loopmark
