@@ -8,8 +8,8 @@
 namespace loopmark {
 namespace {
 
-constexpr double kBias = -9.0;
-constexpr Features kWeights = {10.0, 8.0, -20.0, 4.0, 2.0, 0.0, 0.1, 0.3, 0.3, 0.0};
+constexpr double kBias = -25.1964;
+constexpr Features kWeights = {-0.7863, 3.7091, -8.8880, 2.7316, 5.1579, 0.2381, -0.0212, 1.0713, 2.7197, 22.8600};
 
 }  // namespace
 
