@@ -10,6 +10,7 @@ usage: check_structure.py SOURCE_DIR
 - Private headers are included from their own room only.
 - Libraries do not print: no std::cout, std::cerr or printf to them.
 - The table in docs/architecture.md is that of cmake/layers.txt.
+- Links between the Markdown files lead to files that are there.
 - Every C++ file starts with the two SPDX lines; every header with #pragma once.
 Prints one line "FILE:LINE: PROBLEM" for each finding; exit code 1 when there is any.
 """
@@ -102,11 +103,21 @@ def check_guide(path, floors):
             yield path, 1, f"room {room} is missing in the table"
 
 
+def check_links(path):
+    """Relative links lead to what is there."""
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        for target in re.findall(r"\]\(([^)\s#]+)", line):
+            if not re.match(r"[a-z]+:", target) and not (path.parent / target).exists():
+                yield path, number, f"links to {target}, which is not there"
+
+
 def check_tree(root):
     """Yields (path, line number, problem)."""
     floors = read_layers(root / "cmake" / "layers.txt")
     if (root / "docs" / "architecture.md").exists():
         yield from check_guide(root / "docs" / "architecture.md", floors)
+    for path in sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md")]):
+        yield from check_links(path)
     for folder in sorted(p.parent for p in (root / "libs").glob("*/CMakeLists.txt")):
         yield from check_room(folder.name, folder, floors)
     for wing in ("apps", "libs", "tests", "benchmarks", "examples"):

@@ -68,6 +68,11 @@ class CheckStructureTest(unittest.TestCase):
             "docs/architecture.md:2: room cloud stands otherwise in cmake/layers.txt",
             "docs/architecture.md:1: room mrpt_bridge is missing in the table"])
 
+    def test_links_lead_somewhere(self):
+        self.write("README.md", "[a](docs/a.md) [b](docs/b.md#part)\n[c](https://example.org/x) [d](#here)\n")
+        self.write("docs/a.md", "[up](../README.md)\n")
+        self.assertEqual(self.problems(), ["README.md:1: links to docs/b.md, which is not there"])
+
     def test_form_of_files(self):
         self.write("tests/core/a_test.cpp", "int main() {}\n")
         self.write("apps/loopmark/a.hpp", HEAD)
