@@ -7,6 +7,7 @@
 #include "io/io_fixtures.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
+#include "loopmark/mrpt_bridge/rawlog.hpp"
 
 namespace loopmark {
 namespace {
@@ -38,6 +39,36 @@ TEST(Dataset, KittiOdometryWithCentralPoses) {
   EXPECT_TRUE(set->poses(8).empty());
   EXPECT_THAT(message_of<InputError>([&] { set->load(10, 1); }), HasSubstr("frame 1 does not exist"));
   EXPECT_THAT(message_of<InputError>([&] { set->load(9, 0); }), HasSubstr("no such session"));
+}
+
+TEST(Dataset, KittiRawHasPosesFromItsGps) {
+  const TemporaryFolder folder;
+  const std::string drive = "2011_09_26/2011_09_26_drive_0005_sync/";
+  fs::create_directories(folder / (drive + "velodyne_points/data"));
+  for (int i = 0; i < 2; ++i) {
+    write_bin(folder / (drive + "velodyne_points/data/000000000" + std::to_string(i) + ".bin"), marked_cloud(7));
+    // 1e-5 degrees of latitude are 1.11 m to the north, where the car with its yaw of 90 degrees looks.
+    folder.write(drive + "oxts/data/000000000" + std::to_string(i) + ".txt",
+                 std::to_string(49.0 + 1e-5 * i) + " 8.4 110 0 0 1.5707963267948966 0 0 0 0 0\n");
+  }
+  folder.write("2011_09_26/calib_imu_to_velo.txt", "calib_time: x\nR: 1 0 0 0 1 0 0 0 1\nT: -0.8 0.3 -0.8\n");
+  const auto set = open_dataset(folder.path());
+  EXPECT_EQ(set->layout(), "kitti-raw");
+  ASSERT_EQ(set->poses(0).size(), 2U);
+  EXPECT_LT((set->poses(0)[1].translation() - Eigen::Vector3d(1.1132, 0, 0)).norm(), 1e-3);
+  EXPECT_EQ(set->load(0, 1).size(), 107U);
+}
+
+TEST(Dataset, RawlogsAreSessionsToo) {
+  const TemporaryFolder folder;
+  for (const char* name : {"b.rawlog", "a.rawlog"}) {
+    RawlogWriter writer(folder / name, "top");
+    writer.add({0, 1.0, marked_cloud(name[0] == 'a' ? 1 : 2)});
+    writer.finish();
+  }
+  const auto set = open_dataset(folder.path(), {}, {});
+  ASSERT_EQ(set->sessions().size(), 2U);
+  EXPECT_EQ(set->load(1, 0).size(), 102U);
 }
 
 TEST(Dataset, ApolloCountsFromOneInTheOrderOfThePublishedSets) {

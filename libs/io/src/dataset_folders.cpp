@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Data sets whose drives are folders: KITTI odometry, Apollo-SouthBay, MulRan, any folder of logs.
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -78,8 +79,25 @@ fs::path apollo_drive(const fs::path& root, const std::string& drive) {
   return root / drive;
 }
 
+std::vector<fs::path> folders_and_rawlogs(const fs::path& root) {
+  std::vector<fs::path> places = list_folders(root);
+  std::error_code error;
+  for (fs::directory_iterator it(root, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().extension() == ".rawlog") {
+      places.push_back(it->path());
+    }
+  }
+  std::sort(places.begin(), places.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return places;
+}
+
 /// True when a drive log can be opened here; damaged ones count, so that their problem is told when they are used.
 bool looks_like_log(const fs::path& path, const LogOptions& options) {
+  if (path.extension() == ".rawlog") {
+    return true;  // opening would read it whole
+  }
   try {
     return open_log(path, options) != nullptr;
   } catch (const InputError& error) {
@@ -107,6 +125,24 @@ std::optional<Parts> find_kitti_odometry(const fs::path& root, const DatasetOpti
     }
   }
   return std::nullopt;
+}
+
+std::optional<Parts> find_kitti_raw(const fs::path& root, const DatasetOptions& options) {
+  Parts parts = parts_of("kitti-raw",
+                         "KITTI raw: clouds in the frame of the Velodyne, not motion-compensated, 10 Hz, frames from 0, "
+                         "sessions in order of the drives' names",
+                         root, options);
+  std::vector<fs::path> places = list_folders(root);  // the drives, or the dates with the drives
+  for (const fs::path& date : list_folders(root)) {
+    const auto drives = list_folders(date);
+    places.insert(places.end(), drives.begin(), drives.end());
+  }
+  for (const fs::path& drive : places) {
+    if (is_folder(drive / "velodyne_points")) {
+      parts.sessions.push_back({static_cast<int>(parts.sessions.size()), drive.filename().string(), drive, true});
+    }
+  }
+  return parts.sessions.empty() ? std::nullopt : std::optional(std::move(parts));
 }
 
 std::optional<Parts> find_apollo_southbay(const fs::path& root, const DatasetOptions& options) {
@@ -148,7 +184,7 @@ std::optional<Parts> find_logs(const fs::path& root, const DatasetOptions& optio
     parts.sessions.push_back({0, root.filename().string(), root, true});
     return parts;
   }
-  for (const fs::path& drive : list_folders(root)) {
+  for (const fs::path& drive : folders_and_rawlogs(root)) {
     if (looks_like_log(drive, options.log)) {
       parts.sessions.push_back({static_cast<int>(parts.sessions.size()), drive.filename().string(), drive, true});
     }

@@ -26,6 +26,7 @@ namespace io {
 /// Each returns nothing when the root does not look like its layout.
 std::optional<Dataset::Parts> find_nuscenes(const std::filesystem::path& root, const DatasetOptions& options);
 std::optional<Dataset::Parts> find_kitti_odometry(const std::filesystem::path& root, const DatasetOptions& options);
+std::optional<Dataset::Parts> find_kitti_raw(const std::filesystem::path& root, const DatasetOptions& options);
 std::optional<Dataset::Parts> find_apollo_southbay(const std::filesystem::path& root, const DatasetOptions& options);
 std::optional<Dataset::Parts> find_mulran(const std::filesystem::path& root, const DatasetOptions& options);
 std::optional<Dataset::Parts> find_logs(const std::filesystem::path& root, const DatasetOptions& options);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The layouts of single data sets: KITTI raw, MulRan, Apollo-SouthBay.
+// The layouts of single data sets: MulRan, Apollo-SouthBay.
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -85,27 +85,6 @@ void take_apollo_truth(FileLogParts& parts, const fs::path& file) {
 }
 
 }  // namespace
-
-LogPointer open_kitti_raw(const fs::path& path, const LogOptions& options) {
-  for (const fs::path& base : {path / "velodyne_points", path}) {
-    std::error_code error;
-    auto files = list_point_files(base / "data");
-    if (files.empty() || (base == path && !fs::exists(base / "timestamps.txt", error))) {
-      continue;
-    }
-    FileLogParts parts = parts_of_files(std::move(files), base, options);
-    parts.info.format = "kitti-raw";
-    parts.info.path = path;
-    parts.info.motion_compensated = false;
-    if (!parts.info.sweep && options.rebuild_times == RebuildTimes::kAuto) {
-      parts.info.sweep = SweepModel{};
-    }
-    take_stamps(parts, base / "timestamps.txt");
-    take_truth(parts, path / "poses.txt");
-    return std::make_unique<FileLog>(std::move(parts));
-  }
-  return nullptr;
-}
 
 LogPointer open_mulran(const fs::path& path, const LogOptions& options) {
   for (const fs::path& folder : {path / "Ouster", path / "sensor_data" / "Ouster"}) {

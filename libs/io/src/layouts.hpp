@@ -12,7 +12,8 @@ namespace loopmark::io {
 
 using LogPointer = std::unique_ptr<DriveLog>;
 
-/// KITTI raw: velodyne_points/{data, timestamps.txt}. Not motion-compensated; sweeps clockwise from the rear.
+/// KITTI raw: velodyne_points/{data, timestamps.txt}, with poses from oxts/data and ../calib_imu_to_velo.txt. Not
+/// motion-compensated; sweeps clockwise from the rear.
 LogPointer open_kitti_raw(const std::filesystem::path& path, const LogOptions& options);
 
 /// MulRan: Ouster/<nanoseconds>.bin and global_pose.csv.

@@ -22,7 +22,7 @@ struct DatasetOptions {
 template <class Visitor>
 void describe(Visitor& v, DatasetOptions& o) {
   v.field("layout", o.layout,
-          "auto, or the layout to force: kitti-odometry, nuscenes, apollo-southbay, mulran, logs");
+          "auto, or the layout to force: kitti-odometry, kitti-raw, nuscenes, apollo-southbay, mulran, logs");
   v.field("version", o.version, "nuScenes tables: auto, v1.0-trainval, v1.0-test or v1.0-mini");
 }
 
@@ -69,8 +69,9 @@ class Dataset {
   std::vector<std::unique_ptr<Session>> opened_;
 };
 
-/// Finds out the layout of the data set under `root`: KITTI odometry (sequences/NN), nuScenes (v1.0-*/scene.json),
-/// Apollo-SouthBay (TestData/HighWay237/2018-10-12/pcds, ...), MulRan (DRIVE/Ouster) or a folder of logs. With a
+/// Finds out the layout of the data set under `root`: KITTI odometry (sequences/NN), KITTI raw
+/// (DATE/DRIVE/velodyne_points), nuScenes (v1.0-*/scene.json), Apollo-SouthBay (TestData/HighWay237/2018-10-12/pcds, ...),
+/// MulRan (DRIVE/Ouster) or a folder of logs (folders and .rawlog files; a sessions.txt there names them). With a
 /// `sessions_file` (lines "NUMBER NAME", the first line may be a header) session NUMBER is the log root/NAME.
 std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& root, const std::filesystem::path& sessions_file = {},
                                       const DatasetOptions& options = {});
