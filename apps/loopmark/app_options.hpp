@@ -7,6 +7,7 @@
 #include "loopmark/evaluation/balance_options.hpp"
 #include "loopmark/io/dataset.hpp"
 #include "loopmark/registration/engine_options.hpp"
+#include "loopmark/simulation/options.hpp"
 
 namespace loopmark::app {
 
@@ -16,6 +17,7 @@ struct AppOptions {
   DatasetOptions dataset;
   EngineOptions registration;
   BalanceOptions balance;
+  simulation::SimulationOptions simulation;
 };
 
 template <class Visitor>
@@ -24,6 +26,7 @@ void describe(Visitor& v, AppOptions& o) {
   v.section("dataset", o.dataset, "data sets of many drives");
   v.section("registration", o.registration, "global registration of two scans");
   v.section("balance", o.balance, "choice of balanced sets of frame pairs");
+  v.section("simulation", o.simulation, "simulated towns, drives and pairs");
 }
 
 /// All options as commented YAML, which --config reads back: `loopmark config dump`, a run's config.yaml.

@@ -82,6 +82,21 @@ TEST_F(DriveWriter, LogsAreReadBackWithTheirTruth) {
   }
 }
 
+TEST_F(DriveWriter, RawlogsHoldTimesAndTruth) {
+  const Drive drive = short_drive();
+  write_drive(small_world(), small_town(), drive, folder_ / "mrpt", {LogFormat::kRawlog, false});
+  const auto log = open_log(folder_ / "mrpt" / "drive.rawlog");
+  ASSERT_EQ(log->size(), drive.size());
+  ASSERT_EQ(log->truth().size(), drive.size());
+  const Scan read = log->read(4);
+  const Scan made = render_scan(small_world(), drive, 4);
+  ASSERT_EQ(read.cloud.size(), made.cloud.size());
+  EXPECT_LT((read.cloud.points[50] - made.cloud.points[50]).norm(), 1e-5F);
+  EXPECT_NEAR(log->stamp_s(4) - log->stamp_s(0), 0.4, 1e-5);
+  EXPECT_EQ(read.cloud.ring, made.cloud.ring);
+  EXPECT_NEAR(read.cloud.time_offset_s[50], made.cloud.time_offset_s[50], 2e-6);
+}
+
 TEST_F(DriveWriter, NeverWritesIntoAFolderThatExists) {
   fs::create_directories(folder_ / "mine");
   EXPECT_THROW(write_drive(small_world(), small_town(), short_drive(), folder_ / "mine", {}), InputError);

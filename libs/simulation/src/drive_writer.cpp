@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <vector>
 
 #include "loopmark/core/files.hpp"
@@ -13,6 +14,7 @@
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
+#include "loopmark/mrpt_bridge/rawlog.hpp"
 #include "loopmark/simulation/output_folder.hpp"
 
 namespace loopmark::simulation {
@@ -89,35 +91,84 @@ void write_texts(const Town& town, const Drive& drive, const std::filesystem::pa
   write_file_atomically(folder / "town.json", town_json(town, drive, options, log));
 }
 
+/// Takes the scans of a drive in order and stores them in the format asked for.
+class ScanStore {
+ public:
+  ScanStore(const std::filesystem::path& folder, const Drive& drive, const WriteOptions& options)
+      : folder_(folder / "velodyne"), format_(options.format), T_first_town_(drive.pose(drive.stamp_s(0)).inverse()),
+        drive_(drive) {
+    if (format_ == LogFormat::kRawlog) {
+      rawlog_ = std::make_unique<RawlogWriter>(folder / "drive.rawlog", drive.sensor().label);
+    } else {
+      std::filesystem::create_directory(folder_);
+    }
+  }
+
+  /// Files of their own are written at once, on any thread.
+  void store(const Scan& scan) const {
+    if (format_ == LogFormat::kPcd) {
+      write_pcd(folder_ / format("%06zu.pcd", scan.index), scan.cloud);
+    } else if (format_ == LogFormat::kKitti) {
+      write_bin(folder_ / format("%06zu.bin", scan.index), scan.cloud);
+    }
+  }
+
+  bool one_file() const { return rawlog_ != nullptr; }
+  void append(const Scan& scan) { rawlog_->add(scan, T_first_town_ * drive_.pose(scan.stamp_s)); }
+
+  void finish() {
+    if (rawlog_) {
+      rawlog_->finish();
+    }
+  }
+
+ private:
+  std::filesystem::path folder_;
+  LogFormat format_;
+  Pose T_first_town_;
+  const Drive& drive_;
+  std::unique_ptr<RawlogWriter> rawlog_;
+};
+
+Scan make_scan(const World& world, const Drive& drive, std::size_t index, bool compensated) {
+  Scan scan = render_scan(world, drive, index, compensated ? Motion::kCompensated : Motion::kRaw);
+  if (compensated) {
+    scan.cloud.time_offset_s.clear();  // nobody must take them for the points' own moments
+  }
+  return scan;
+}
+
+/// Renders and stores all scans; returns the number of points.
+std::size_t write_scans(const World& world, const Drive& drive, const WriteOptions& options, ScanStore& store) {
+  std::size_t points = 0;
+  Progress progress("scans", drive.size());
+  for (std::size_t first = 0; first < drive.size(); first += kBatch) {
+    check_interrupt();
+    std::vector<Scan> batch(std::min(kBatch, drive.size() - first));
+    parallel_for(batch.size(), [&](std::size_t k) {
+      batch[k] = make_scan(world, drive, first + k, options.compensated);
+      store.store(batch[k]);
+    });
+    for (const Scan& scan : batch) {
+      points += scan.cloud.size();
+      if (store.one_file()) {
+        store.append(scan);
+      }
+    }
+    progress.add(batch.size());
+  }
+  store.finish();
+  return points;
+}
+
 }  // namespace
 
 WrittenLog write_drive(const World& world, const Town& town, const Drive& drive, const std::filesystem::path& folder,
                        const WriteOptions& options) {
   OutputFolder output(folder);
-  const std::filesystem::path scans = output.partial() / "velodyne";
-  std::filesystem::create_directory(scans);
-  const bool pcd = options.format == LogFormat::kPcd;
-  const Motion frame = options.compensated ? Motion::kCompensated : Motion::kRaw;
+  ScanStore store(output.partial(), drive, options);
   WrittenLog log{drive.size(), 0, drive.distance(drive.stamp_s(drive.size() - 1)) - drive.distance(drive.stamp_s(0))};
-  Progress progress("scans", drive.size());
-  for (std::size_t first = 0; first < drive.size(); first += kBatch) {
-    check_interrupt();
-    const std::size_t count = std::min(kBatch, drive.size() - first);
-    std::vector<std::size_t> points(count);
-    parallel_for(count, [&](std::size_t k) {
-      Scan scan = render_scan(world, drive, first + k, frame);
-      if (options.compensated) {
-        scan.cloud.time_offset_s.clear();  // nobody must take them for the points' own moments
-      }
-      const std::filesystem::path file = scans / format(pcd ? "%06zu.pcd" : "%06zu.bin", first + k);
-      pcd ? write_pcd(file, scan.cloud) : write_bin(file, scan.cloud);
-      points[k] = scan.cloud.size();
-    });
-    for (const std::size_t n : points) {
-      log.points += n;
-    }
-    progress.add(count);
-  }
+  log.points = write_scans(world, drive, options, store);
   write_texts(town, drive, output.partial(), options, log);
   output.finish();
   return log;

@@ -9,7 +9,7 @@
 
 namespace loopmark::simulation {
 
-enum class LogFormat { kKitti, kPcd };
+enum class LogFormat { kKitti, kPcd, kRawlog };
 
 struct WriteOptions {
   LogFormat format = LogFormat::kKitti;
@@ -18,7 +18,8 @@ struct WriteOptions {
 
 template <class Visitor>
 void describe(Visitor& v, WriteOptions& o) {
-  v.choice("format", o.format, {{"kitti", LogFormat::kKitti}, {"pcd", LogFormat::kPcd}}, "format of the scans");
+  v.choice("format", o.format, {{"kitti", LogFormat::kKitti}, {"pcd", LogFormat::kPcd}, {"rawlog", LogFormat::kRawlog}},
+           "format of the scans");
   v.field("compensated", o.compensated, "scans in the frame of their stamp; else each point at its own moment");
 }
 
@@ -30,7 +31,8 @@ struct WrittenLog {
 };
 
 /// Renders and writes a drive to `folder`:
-///   velodyne/%06d.bin   x y z intensity as float32 (KITTI), or %06d.pcd with x y z intensity ring t
+///   velodyne/%06d.bin   x y z intensity as float32 (KITTI), or %06d.pcd with x y z intensity ring t,
+///                       or instead of the folder drive.rawlog with times, rings and the truth (MRPT)
 ///   times.txt           stamp of each scan, seconds
 ///   poses.txt           truth: T_first_scan, 3x4 row-major, of the sensor at the stamp of each scan
 ///   calib.txt           KITTI's file; Tr is the identity: poses are of the LiDAR itself
