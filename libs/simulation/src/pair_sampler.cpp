@@ -22,6 +22,7 @@ constexpr std::size_t kBins = 7;
 constexpr std::size_t kSources = 8;    ///< sources tried in one round, in parallel
 constexpr std::size_t kTrials = 7;     ///< targets tried for each source
 constexpr double kTrialCoarseness = 4.0;
+constexpr std::size_t kPatience = 10;  ///< rounds without a pair until a bin counts as out of reach
 constexpr double kNoOverlap = 0.005;
 
 /// Where and when one scan is taken.
@@ -58,10 +59,15 @@ class Sampler {
 
   PairSample run() {
     Progress progress("pairs", o_.pairs + o_.negatives);
-    const std::size_t most_rounds = 12 + 4 * o_.pairs / kSources * 3;
-    for (std::size_t round = 0; round < most_rounds && sample_.pairs.size() < o_.pairs; ++round) {
+    std::size_t in_vain = 0;
+    for (std::size_t round = 0; in_vain < 3 * kPatience && sample_.pairs.size() < o_.pairs; ++round) {
       check_interrupt();
-      progress.add(positives(round));
+      const std::size_t kept = positives(round);
+      in_vain = kept > 0 ? 0 : in_vain + 1;
+      if (in_vain == kPatience) {
+        share_out_the_rest();
+      }
+      progress.add(kept);
     }
     const std::size_t most_tries = 40 + 10 * o_.negatives;
     for (std::size_t i = 0; i < most_tries && sample_.negatives.size() < o_.negatives; ++i) {
@@ -103,6 +109,21 @@ class Sampler {
   }
 
   bool lacks(std::size_t bin) const { return bin < kBins && filled_[bin] < wanted_[bin]; }
+
+  /// Gives up on the bins that stay empty: what they lack is shared out to those that were filled.
+  void share_out_the_rest() {
+    std::vector<std::size_t> full;
+    for (std::size_t bin = 0; bin < kBins; ++bin) {
+      if (lacks(bin)) {
+        wanted_[bin] = filled_[bin];
+      } else if (filled_[bin] > 0) {
+        full.push_back(bin);
+      }
+    }
+    for (std::size_t k = sample_.pairs.size(); k < o_.pairs && !full.empty(); ++k) {
+      ++wanted_[full[k % full.size()]];
+    }
+  }
 
   /// Distances to try: half of them spread evenly, half of them closer, where overlap changes fast.
   std::pair<double, double> distance_range(std::size_t trial, Rng& rng) const {

@@ -64,8 +64,8 @@ using ScanSink = std::function<void(std::size_t index, const PointCloud& cloud)>
 
 /// Draws places on the streets, renders them, and keeps pairs so that their symmetric overlap (cloud/overlap.hpp) is
 /// spread evenly over seven bins. Negatives overlap by less than 0.5 %: either places far apart, or equal places of
-/// two blocks that look alike. Fewer pairs than asked for are returned when a bin cannot be filled (16-beam sensors
-/// seldom reach the highest). Deterministic for a seed at any number of threads.
+/// two blocks that look alike. Where a bin cannot be filled (one sensor against another seldom reaches the highest) the
+/// others take its share. Deterministic for a seed at any number of threads.
 PairSample sample_pairs(const Town& town, const PairOptions& options, const ScanSink& sink);
 
 }  // namespace loopmark::simulation
