@@ -36,14 +36,14 @@ void add_box(PointCloud& cloud, const Eigen::Vector3d& corner, const Eigen::Vect
 PointCloud sample_yard(std::uint64_t seed) {
   Rng rng(seed);
   PointCloud cloud;
-  for (int i = 0; i < 12000; ++i) {
+  for (int i = 0; i < 7000; ++i) {
     cloud.points.push_back(Eigen::Vector3d(rng.uniform(-25, 25), rng.uniform(-25, 25), -1.7).cast<float>());
   }
   Rng shapes(5);  // the same yard for every sample
   for (int k = 0; k < 14; ++k) {
     const Eigen::Vector3d corner(shapes.uniform(-22, 18), shapes.uniform(-22, 18), -1.7);
     const Eigen::Vector3d size(shapes.uniform(0.3, 6), shapes.uniform(0.3, 6), shapes.uniform(1, 5));
-    add_box(cloud, corner, size, 2500, rng);
+    add_box(cloud, corner, size, 1200, rng);
   }
   return cloud;
 }
