@@ -62,6 +62,17 @@ TEST(PairSampler, IsTheSameForASeed) {
   }
 }
 
+TEST(PairSampler, BinsOutOfReachGiveTheirShareToOthers) {
+  PairOptions o = few_pairs();
+  o.negatives = 0;
+  o.sensor = "vlp16";
+  o.max_overlap = 0.98;
+  o.min_overlap = 0.7;
+  o.days = 1;
+  const PairSample sample = sample_pairs(small_town(), o, [](std::size_t, const PointCloud&) {});
+  EXPECT_EQ(sample.pairs.size(), o.pairs);
+}
+
 TEST(PairSampler, BlocksOfTheTwoRowsLookAlike) {
   // A place in the first row, and the same place of the last row turned by half a turn: seen as if they were one.
   const auto& nodes = small_town().roads.nodes;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "loopmark/core/parallel.hpp"
 #include "loopmark/core/random.hpp"
 #include "small_town.hpp"
 
@@ -69,6 +70,14 @@ TEST(World, MovingBodiesAreMetWhereTheyAreAtThatMoment) {
   ASSERT_TRUE(rays[0].hit && rays[1].hit && rays[2].hit);
   EXPECT_NEAR(rays[1].range_m - rays[0].range_m, 1.0, 1e-4);
   EXPECT_NEAR(rays[2].range_m - rays[0].range_m, 2.0, 1e-4);
+}
+
+TEST(World, LeavesTheNumberOfThreadsAlone) {
+  const std::size_t before = thread_count();
+  set_thread_count(2);
+  const World world(flat_ground(1.0));
+  EXPECT_EQ(thread_count(), 2U);
+  set_thread_count(before);
 }
 
 TEST(World, OtherDaysHaveOtherParkedCars) {

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray casting by Embree 3. Scenes are built by one thread, so that the trees and with them the choice between equal
-// hits do not depend on the number of threads.
+// hits do not depend on the number of threads. (A device of one thread would hold the whole process to one thread.)
 #include "loopmark/simulation/world.hpp"
 
 #include <embree3/rtcore.h>
+#include <tbb/global_control.h>
 
 #include <array>
 #include <stdexcept>
@@ -25,7 +26,7 @@ using DevicePointer = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using ScenePointer = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 
 DevicePointer make_device() {
-  DevicePointer device(rtcNewDevice("threads=1,set_affinity=0"));
+  DevicePointer device(rtcNewDevice("set_affinity=0"));
   if (!device) {
     throw std::runtime_error("Embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
   }
@@ -122,7 +123,9 @@ struct World::Impl {
   ShapeList shapes = make_shapes();
   std::vector<ScenePointer> shape_scenes;
 
-  explicit Impl(const Mesh& mesh) : surfaces(mesh.surfaces), scene(make_scene(device.get(), mesh)) {
+  explicit Impl(const Mesh& mesh) : surfaces(mesh.surfaces) {
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    scene = make_scene(device.get(), mesh);
     for (const Mesh& shape : shapes.meshes) {
       shape_scenes.push_back(make_scene(device.get(), shape));
     }
