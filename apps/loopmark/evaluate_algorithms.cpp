@@ -50,11 +50,9 @@ class Collection {
   }
 
   std::unique_ptr<RegistrationAlgorithm> by_name(const std::string& name) const {
-#ifdef LOOPMARK_HAS_ENGINE
     if (name == "engine") {
       return make_engine_algorithm(options_.registration, config::dump(options_.registration));
     }
-#endif
     throw InputError("--algorithms " + name + ": no such algorithm (there are: engine)");
   }
 
