@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate_algorithms.hpp"
 
-#include <sstream>
+#include <algorithm>
 
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/external_algorithm.hpp"
+#include "loopmark/registration/named_algorithms.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -32,7 +33,7 @@ class Collection {
       const auto [name, file] = named(text, std::filesystem::path(text).stem().string());
       add(make_motions_algorithm(name, motions_of_pairs(set_.pairs, read_motions(file), file)));
     }
-    for (const std::string& name : names()) {
+    for (const std::string& name : all_names()) {
       add(by_name(name));
     }
     for (const std::string& text : arguments_.commands) {
@@ -53,7 +54,36 @@ class Collection {
     if (name == "engine") {
       return make_engine_algorithm(options_.registration, config::dump(options_.registration));
     }
-    throw InputError("--algorithms " + name + ": no such algorithm (there are: engine)");
+    return make_named_algorithm(name);
+  }
+
+  /// The names that one word of --algorithms stands for.
+  static std::vector<std::string> expanded(const std::string& word) {
+    if (word == "paper") {
+      return {"ransac_mutual", "ransac_gpf", "gnc_clique", "sc2"};
+    }
+    std::vector<std::string> names;
+    for (const NamedAlgorithm& algorithm : named_algorithms()) {
+      const bool gpf = algorithm.ablation == "phi" || algorithm.ablation == "iterations";
+      const bool ransac = algorithm.ablation == "roles" || algorithm.ablation == "local";
+      if (word == "all" || (word == "gpf-ablation" && gpf) || (word == "ransac-ablation" && ransac)) {
+        names.push_back(algorithm.name);
+      }
+    }
+    return names.empty() ? std::vector<std::string>{word} : names;
+  }
+
+  std::vector<std::string> all_names() const {
+    std::vector<std::string> all;
+    for (const std::string& word : names()) {
+      for (const std::string& name : expanded(word)) {
+        for (std::size_t k = 1; k <= arguments_.repeats; ++k) {
+          all.push_back(arguments_.repeats > 1 && name != "engine" ? name + "#" + std::to_string(k) : name);
+        }
+      }
+    }
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
   }
 
   void add(std::unique_ptr<RegistrationAlgorithm> algorithm) {

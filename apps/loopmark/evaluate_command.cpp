@@ -23,6 +23,9 @@ Examples:
       the registration engine on the pairs of a set; sessions.txt beside the set names the log of each session
   loopmark evaluate pairs.txt --data LOGS --algorithms engine --command "mine=python3 mine.py" --refine icp -o RESULT
       beside a program of yours that speaks the line protocol (docs/evaluation.md), each with and without ICP
+  loopmark evaluate pairs.txt --data LOGS --algorithms ransac-ablation --repeats 4 --refine icp -o RESULT
+  loopmark evaluate paper ransac-ablation RESULT -o TABLES
+      the paper's ablation of RANSAC, with the convex hulls of repeated runs
   loopmark evaluate compare RESULT_A RESULT_B
   loopmark evaluate paper refinement RESULT -o TABLES
   loopmark evaluate merge RESULT
@@ -39,10 +42,13 @@ void add_input_options(CLI::App& command, EvaluateArguments& a) {
 }
 
 void add_run_options(CLI::App& command, EvaluateArguments& a) {
-  command.add_option("--algorithms", a.algorithms, "what competes, separated by commas: engine")->delimiter(',');
+  command.add_option("--algorithms", a.algorithms, "what competes, separated by commas: engine, the paper's variants by name (ransac_mutual, ransac_gpf, "
+                     "gnc_clique, sc2, ...), or groups of them: paper, ransac-ablation, gpf-ablation, all")->delimiter(',');
   command.add_option("--motions", a.motions, "motions somebody found, 19 columns: FILE or NAME=FILE; may be repeated");
   command.add_option("--command", a.commands, "a program: COMMAND or NAME=COMMAND; may be repeated");
-  command.add_option("--refine", a.refine, "each algorithm once more with: icp, bbr; separated by commas")->delimiter(',');
+  command.add_option("--refine", a.refine, "each algorithm once more with: icp, sym-icp, bbr, plane-icp, gicp; by commas")
+      ->delimiter(',');
+  command.add_option("--repeats", a.repeats, "runs of each variant of the paper with other seeds, NAME#1, NAME#2, ... (1)");
   command.add_option("--time-limit", a.time_limit_s, "of a program for one pair, seconds (30)");
   command.add_option("--max-rotation", a.criterion.max_rotation_deg, "success: RE below this, degrees (5)");
   command.add_option("--max-translation", a.criterion.max_translation_m, "success: TE below this, metres (0.6)");

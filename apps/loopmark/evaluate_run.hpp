@@ -21,6 +21,7 @@ struct EvaluateArguments {
   std::vector<std::string> motions;
   std::vector<std::string> commands;
   std::vector<std::string> refine;
+  std::size_t repeats = 1;
   std::filesystem::path negatives;
   std::filesystem::path perturb;
   SuccessCriterion criterion;

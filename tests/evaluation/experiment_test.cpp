@@ -223,11 +223,22 @@ TEST(Refined, ImprovesAnEarlierAnswer) {
   PairScans scans(cloud, transformed(cloud, truth));
   std::map<std::string, Answer> earlier;
   earlier["base"].T_target_source = pose_from_yaw(0.02, {0.15, 0.1, 0.05}) * truth;
-  const auto refined = make_refined_algorithm("base", "icp");
-  EXPECT_EQ(refined->name(), "base+icp");
-  const Answer answer = refined->answer({0, {}, &scans, &earlier});
-  EXPECT_LT(pose_error(answer.T_target_source, truth).translation_m, 0.05);
+  for (const std::string& method : refinement_methods()) {
+    const auto refined = make_refined_algorithm("base", method);
+    EXPECT_EQ(refined->name(), "base+" + method);
+    const Answer answer = refined->answer({0, {}, &scans, &earlier});
+    EXPECT_LT(pose_error(answer.T_target_source, truth).translation_m, 0.05) << method;
+  }
   EXPECT_THROW(make_refined_algorithm("base", "nothing"), InputError);
+}
+
+TEST(NamedAlgorithm, RunsThePapersPipelineWithItsOwnSeed) {
+  for (const char* name : {"ransac_mutual", "ransac_gpf#2", "gnc_clique"}) {
+    EXPECT_EQ(make_named_algorithm(name)->name(), name);
+  }
+  EXPECT_NE(make_named_algorithm("ransac_mutual#1")->settings(), make_named_algorithm("ransac_mutual#2")->settings());
+  EXPECT_THROW(make_named_algorithm("nothing"), InputError);
+  EXPECT_THROW(make_named_algorithm("ransac_mutual#x"), InputError);
 }
 
 }  // namespace

@@ -8,17 +8,14 @@ namespace {
 
 constexpr double kVoxelM = 0.3;
 
-const PointCloud& made_once(PointCloud& cloud, const PointCloud& from) {
-  if (cloud.empty()) {
-    cloud = voxel_downsampled(from, kVoxelM);
-  }
-  return cloud;
-}
-
 }  // namespace
 
-const PointCloud& PairScans::small_source() { return made_once(small_source_, source_); }
+const PointCloud& PairScans::small_source() {
+  return shared<PointCloud>("small source", [&] { return voxel_downsampled(source_, kVoxelM); });
+}
 
-const PointCloud& PairScans::small_target() { return made_once(small_target_, target_); }
+const PointCloud& PairScans::small_target() {
+  return shared<PointCloud>("small target", [&] { return voxel_downsampled(target_, kVoxelM); });
+}
 
 }  // namespace loopmark

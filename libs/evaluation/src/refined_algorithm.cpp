@@ -6,6 +6,7 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/evaluation/algorithm.hpp"
+#include "loopmark/features/normals.hpp"
 #include "loopmark/refinement/icp.hpp"
 
 namespace loopmark {
@@ -20,9 +21,15 @@ struct Method {
 const std::vector<Method>& methods() {
   static const std::vector<Method> table = [] {
     IcpOptions point;
+    IcpOptions symmetric;
+    symmetric.metric = IcpMetric::kSymmetric;
     IcpOptions buddies;
     buddies.pairing = IcpPairing::kBestBuddies;
-    return std::vector<Method>{{"icp", point}, {"bbr", buddies}};
+    IcpOptions plane;
+    plane.metric = IcpMetric::kPointToPlane;
+    IcpOptions generalized;
+    generalized.metric = IcpMetric::kGeneralized;
+    return std::vector<Method>{{"icp", point}, {"sym-icp", symmetric}, {"bbr", buddies}, {"plane-icp", plane}, {"gicp", generalized}};
   }();
   return table;
 }
@@ -40,8 +47,9 @@ class RefinedAlgorithm : public RegistrationAlgorithm {
     if (!answer.has_motion()) {
       return answer;
     }
-    const Surface source{task.scans->small_source().points, {}};
-    const Surface target{task.scans->small_target().points, {}};
+    const bool normals = method_.options.metric != IcpMetric::kPointToPoint;
+    const Surface& source = surface(*task.scans, "source", task.scans->small_source(), normals);
+    const Surface& target = surface(*task.scans, "target", task.scans->small_target(), normals);
     const Stopwatch watch;
     const IcpResult result = icp(source, IcpTarget(target, method_.options.max_distance_m), answer.T_target_source,
                                  method_.options);
@@ -56,6 +64,12 @@ class RefinedAlgorithm : public RegistrationAlgorithm {
   }
 
  private:
+  static const Surface& surface(PairScans& scans, const std::string& which, const PointCloud& cloud, bool normals) {
+    return scans.shared<Surface>("surface of " + which + (normals ? " with normals" : ""), [&] {
+      return Surface{cloud.points, normals ? estimate_normals(cloud.points, {}).vectors : std::vector<Eigen::Vector3f>()};
+    });
+  }
+
   std::string base_;
   Method method_;
   std::string name_;

@@ -24,8 +24,19 @@ class PairScans {
   const PointCloud& small_source();
   const PointCloud& small_target();
 
+  /// What make() returns, made once for each key: lets algorithms that need the same share it.
+  template <class T, class Make>
+  const T& shared(const std::string& key, const Make& make) {
+    std::shared_ptr<const void>& place = shared_[key];
+    if (!place) {
+      place = std::make_shared<const T>(make());
+    }
+    return *static_cast<const T*>(place.get());
+  }
+
  private:
-  PointCloud source_, target_, small_source_, small_target_;
+  PointCloud source_, target_;
+  std::map<std::string, std::shared_ptr<const void>> shared_;
 };
 
 /// One pair as an algorithm gets it.
@@ -51,6 +62,10 @@ using AlgorithmList = std::vector<std::unique_ptr<RegistrationAlgorithm>>;
 
 /// The registration engine, called "engine".
 std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const EngineOptions& options, std::string settings);
+
+/// A variant of the paper's pipeline (named_algorithms()), without its refinement. "NAME#3" is NAME with the seed 3.
+/// Algorithms that describe scans alike share the descriptors of a pair.
+std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name);
 
 /// Answers that were found before: one motion a pair. Pairs behind the last (negatives) fail.
 std::unique_ptr<RegistrationAlgorithm> make_motions_algorithm(std::string name, std::vector<Pose> motions);
