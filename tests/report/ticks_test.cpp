@@ -20,6 +20,7 @@ std::vector<std::string> labels(const std::vector<Tick>& ticks) {
 TEST(Ticks, AreRoundNumbers) {
   EXPECT_EQ(labels(linear_ticks(0.0, 10.0, 5)), (std::vector<std::string>{"0", "2", "4", "6", "8", "10"}));
   EXPECT_EQ(labels(linear_ticks(-0.12, 0.11, 4)), (std::vector<std::string>{"-0.1", "0.0", "0.1"}));
+  EXPECT_EQ(labels(linear_ticks(0.0, 4e-13, 2)), (std::vector<std::string>{"0", "2e-13", "4e-13"}));
   EXPECT_EQ(labels(linear_ticks(2.3e6, 2.7e6, 2)), (std::vector<std::string>{"2.4e+06", "2.6e+06"}));
 }
 

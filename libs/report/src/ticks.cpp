@@ -25,7 +25,10 @@ double round_step(double least) {
 
 std::string number_label(double value, double step) {
   const double size = std::abs(value);
-  if (size > 0.0 && (size >= 1e6 || step < 1e-4)) {
+  if (size < 1e-9 * step) {
+    value = 0.0;
+  }
+  if (size >= 1e6 || step < 1e-4) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%g", value);
     return text.data();
