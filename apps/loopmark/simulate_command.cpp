@@ -72,39 +72,61 @@ void add_choice(CLI::App& command, SimulateArguments& a, const std::string& name
 
 void declare_drive(CLI::App& command, SimulateArguments& a) {
   using O = SimulationOptions;
-  add_value<std::uint64_t>(command, a, "--town", "seed of the town (default 1)", [](O& o) -> auto& { return o.town.seed; });
-  add_value<double>(command, a, "--length", "driven distance, metres (default 1000)", [](O& o) -> auto& { return o.drive.length_m; });
-  add_value<std::string>(command, a, "--sensor", "hdl64e (default), hdl32e, vlp16, os1-64", [](O& o) -> auto& { return o.drive.sensor; })
+  add_value<std::uint64_t>(
+      command, a, "--town", "seed of the town (default 1)", [](O & o) -> auto& { return o.town.seed; });
+  add_value<double>(
+      command, a, "--length", "driven distance, metres (default 1000)",
+      [](O & o) -> auto& { return o.drive.length_m; });
+  add_value<std::string>(
+      command, a, "--sensor", "hdl64e (default), hdl32e, vlp16, os1-64", [](O & o) -> auto& { return o.drive.sensor; })
       ->each([&a](const std::string& name) { a.given.push_back([name](O& o) { o.pairs.sensor = name; }); });
-  add_value<int>(command, a, "--day", "other days, other parked cars and traffic (default 1)", [](O& o) -> auto& { return o.drive.day; });
-  add_value<std::string>(command, a, "--route", "tour (default), explore, twins, open", [](O& o) -> auto& { return o.drive.route; });
-  add_choice<Lane>(command, a, "--lane", "lane driven on (default right)",
-                   {{"right", Lane::kRight}, {"centre", Lane::kCentre}, {"left", Lane::kLeft}},
-                   [](O& o) -> auto& { return o.drive.lane; });
-  add_choice<bool>(command, a, "--direction", "reverse: the route from its end", {{"forward", false}, {"reverse", true}},
-                   [](O& o) -> auto& { return o.drive.reverse; });
-  add_value<double>(command, a, "--rate", "sweeps a second, 5 to 20 (default: the sensor's own)", [](O& o) -> auto& { return o.drive.rate_hz; });
-  add_value<std::uint64_t>(command, a, "--seed", "seed of noise, speeds, halts, traffic, pairs (default 1)",
-                           [](O& o) -> auto& { return o.drive.seed; })
+  add_value<int>(
+      command, a, "--day", "other days, other parked cars and traffic (default 1)",
+      [](O & o) -> auto& { return o.drive.day; });
+  add_value<std::string>(
+      command, a, "--route", "tour (default), explore, twins, open", [](O & o) -> auto& { return o.drive.route; });
+  add_choice<Lane>(
+      command, a, "--lane", "lane driven on (default right)",
+      {{"right", Lane::kRight}, {"centre", Lane::kCentre}, {"left", Lane::kLeft}},
+      [](O & o) -> auto& { return o.drive.lane; });
+  add_choice<bool>(
+      command, a, "--direction", "reverse: the route from its end", {{"forward", false}, {"reverse", true}},
+      [](O & o) -> auto& { return o.drive.reverse; });
+  add_value<double>(
+      command, a, "--rate", "sweeps a second, 5 to 20 (default: the sensor's own)",
+      [](O & o) -> auto& { return o.drive.rate_hz; });
+  add_value<std::uint64_t>(
+      command, a, "--seed", "seed of noise, speeds, halts, traffic, pairs (default 1)",
+      [](O & o) -> auto& { return o.drive.seed; })
       ->each([&a](const std::string& seed) { a.given.push_back([seed](O& o) { o.pairs.seed = std::stoull(seed); }); });
-  add_choice<LogFormat>(command, a, "--format", "kitti (default): .bin; pcd: with ring and time of each point; rawlog: MRPT's",
-                        {{"kitti", LogFormat::kKitti}, {"pcd", LogFormat::kPcd}, {"rawlog", LogFormat::kRawlog}},
-                        [](O& o) -> auto& { return o.write.format; });
-  command.add_flag_callback("--compensated", [&a] { a.given.push_back([](O& o) { o.write.compensated = true; }); },
-                            "write scans in the frame of their stamp (motion-compensated)");
-  command.add_flag_callback("--from-standstill", [&a] { a.given.push_back([](O& o) { o.drive.from_standstill = true; }); },
-                            "start from a halt; else the log starts while moving");
+  add_choice<LogFormat>(
+      command, a, "--format", "kitti (default): .bin; pcd: with ring and time of each point; rawlog: MRPT's",
+      {{"kitti", LogFormat::kKitti}, {"pcd", LogFormat::kPcd}, {"rawlog", LogFormat::kRawlog}},
+      [](O & o) -> auto& { return o.write.format; });
+  command.add_flag_callback(
+      "--compensated", [&a] { a.given.push_back([](O& o) { o.write.compensated = true; }); },
+      "write scans in the frame of their stamp (motion-compensated)");
+  command.add_flag_callback(
+      "--from-standstill", [&a] { a.given.push_back([](O& o) { o.drive.from_standstill = true; }); },
+      "start from a halt; else the log starts while moving");
 }
 
 void declare_pairs(CLI::App& command, SimulateArguments& a) {
   using O = SimulationOptions;
-  add_value<std::size_t>(command, a, "--pairs", "make so many pairs of scans instead of a drive", [](O& o) -> auto& { return o.pairs.pairs; })
+  add_value<std::size_t>(
+      command, a, "--pairs", "make so many pairs of scans instead of a drive",
+      [](O & o) -> auto& { return o.pairs.pairs; })
       ->each([&a](const std::string&) { a.only_pairs = true; });
-  add_value<std::size_t>(command, a, "--negatives", "with --pairs: pairs of different places (default 50)",
-                         [](O& o) -> auto& { return o.pairs.negatives; });
+  add_value<std::size_t>(
+      command, a, "--negatives", "with --pairs: pairs of different places (default 50)",
+      [](O & o) -> auto& { return o.pairs.negatives; });
   command.add_option("--towns", a.towns, "with --pairs: share them out to so many towns")->capture_default_str();
-  add_value<std::string>(command, a, "--sensor-b", "with --pairs: sensor of the target scans", [](O& o) -> auto& { return o.pairs.sensor_b; });
-  add_value<int>(command, a, "--days", "with --pairs: scans are taken on so many days (default 2)", [](O& o) -> auto& { return o.pairs.days; });
+  add_value<std::string>(
+      command, a, "--sensor-b", "with --pairs: sensor of the target scans",
+      [](O & o) -> auto& { return o.pairs.sensor_b; });
+  add_value<int>(
+      command, a, "--days", "with --pairs: scans are taken on so many days (default 2)",
+      [](O & o) -> auto& { return o.pairs.days; });
 }
 
 int simulate_drive(const SimulationOptions& o, const std::filesystem::path& output) {
@@ -117,7 +139,8 @@ int simulate_drive(const SimulationOptions& o, const std::filesystem::path& outp
   const double seconds = watch.seconds();
   const double rays = static_cast<double>(drive.sensor().rays_per_sweep() * log.scans);
   std::printf("%s: %zu scans (%s), %.0f m, %zu revisits, %.1f million points\n", output.c_str(), log.scans,
-              drive.sensor().label.c_str(), log.length_m, drive.revisits().size(), 1e-6 * static_cast<double>(log.points));
+              drive.sensor().label.c_str(), log.length_m, drive.revisits().size(),
+              1e-6 * static_cast<double>(log.points));
   std::printf("%.1f s: %.1f scans/s, %.2f million rays/s\n", seconds, static_cast<double>(log.scans) / seconds,
               1e-6 * rays / seconds);
   return 0;

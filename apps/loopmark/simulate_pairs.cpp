@@ -35,7 +35,9 @@ std::string scan_name(std::size_t index) {
 }
 
 /// Share `k` of `count` things split evenly into `parts`.
-std::size_t share(std::size_t count, std::size_t parts, std::size_t k) { return count / parts + (k < count % parts ? 1 : 0); }
+std::size_t share(std::size_t count, std::size_t parts, std::size_t k) {
+  return count / parts + (k < count % parts ? 1 : 0);
+}
 
 struct PairSet {
   std::vector<RegistrationPair> pairs;
@@ -77,7 +79,8 @@ void print_summary(const SimulatePairsArguments& a, const PairSet& set, double s
   }
   std::printf("%s: %zu pairs of %zu towns, up to %.0f m apart, and %zu negatives, in %.0f s\n", a.output.c_str(),
               set.pairs.size(), a.towns, farthest, set.negatives.size(), seconds);
-  std::printf("pairs by symmetric overlap, in seven equal bins from %.2f to %.2f:", a.pairs.min_overlap, a.pairs.max_overlap);
+  std::printf("pairs by symmetric overlap, in seven equal bins from %.2f to %.2f:", a.pairs.min_overlap,
+              a.pairs.max_overlap);
   for (const std::size_t count : bins) {
     std::printf(" %zu", count);
   }

@@ -82,8 +82,10 @@ TEST(PairSampler, BlocksOfTheTwoRowsLookAlike) {
   const Eigen::Vector2d here = first + Eigen::Vector2d(100.0, -1.75);
   const Eigen::Vector2d there = last - Eigen::Vector2d(100.0, -1.75);
   const double half_turn = 3.14159265358979;
-  const PointCloud a = render_standing(small_world(), nullptr, sensor, standing_pose(small_town().terrain, here, 0.0, sensor.height_m), 1);
-  const PointCloud b = render_standing(small_world(), nullptr, sensor, standing_pose(small_town().terrain, there, half_turn, sensor.height_m), 2);
+  const PointCloud a = render_standing(small_world(), nullptr, sensor,
+                                       standing_pose(small_town().terrain, here, 0.0, sensor.height_m), 1);
+  const PointCloud b = render_standing(small_world(), nullptr, sensor,
+                                       standing_pose(small_town().terrain, there, half_turn, sensor.height_m), 2);
   EXPECT_GT(overlap(a, b, Pose::Identity()).symmetric, 0.6);
 }
 

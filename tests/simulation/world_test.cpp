@@ -27,7 +27,8 @@ TEST(World, RaysMeetAPlaneWhereGeometrySays) {
   Rng rng(1);
   std::vector<Ray> rays;
   for (int i = 0; i < 500; ++i) {
-    rays.push_back(ray_from({0, 0, 2}, {static_cast<float>(rng.normal()), static_cast<float>(rng.normal()), static_cast<float>(rng.normal())}));
+    rays.push_back(ray_from({0, 0, 2}, {static_cast<float>(rng.normal()), static_cast<float>(rng.normal()),
+                                        static_cast<float>(rng.normal())}));
   }
   const std::vector<Ray> before = rays;
   world.cast(rays, nullptr);

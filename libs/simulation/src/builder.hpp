@@ -21,7 +21,7 @@ struct Builder {
 /// One side of a street, walked from its `from` end (or from the other end for a turned template).
 struct Frontage {
   const RoadEdge& edge;
-  double side;    ///< +1 left of the direction of walking, -1 right
+  double side;  ///< +1 left of the direction of walking, -1 right
   double length;
 
   Frontage(const RoadEdge& e, double which_side);

@@ -11,9 +11,7 @@
 namespace loopmark::simulation {
 namespace {
 
-Surface shaded(Material material, Rng& rng) {
-  return {material, static_cast<std::uint8_t>(64 + rng.below(128))};
-}
+Surface shaded(Material material, Rng& rng) { return {material, static_cast<std::uint8_t>(64 + rng.below(128))}; }
 
 /// Draws one wall in its own frame: x along the wall, z up, y into the building.
 class Wall {

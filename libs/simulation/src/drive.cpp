@@ -16,10 +16,13 @@ namespace {
 
 double lane_offset(Lane lane) {
   switch (lane) {
-    case Lane::kCentre: return 0.2;
-    case Lane::kLeft: return -1.75;
+    case Lane::kCentre:
+      return 0.2;
+    case Lane::kLeft:
+      return -1.75;
     case Lane::kRight:
-    default: return 1.75;
+    default:
+      return 1.75;
   }
 }
 
@@ -69,7 +72,8 @@ struct Ripple {
 
 void check(const DriveOptions& o) {
   require_option(o.length_m >= 10.0 && o.length_m <= 1e6, "length_m", "must lie between 10 and 1000000 metres");
-  require_option(o.rate_hz == 0.0 || (o.rate_hz >= 5.0 && o.rate_hz <= 20.0), "rate_hz", "must lie between 5 and 20 Hz, or be 0");
+  require_option(o.rate_hz == 0.0 || (o.rate_hz >= 5.0 && o.rate_hz <= 20.0), "rate_hz",
+                 "must lie between 5 and 20 Hz, or be 0");
   require_option(o.halt_every_m >= 0.0, "halt_every_m", "must not be negative");
   require_option(o.vehicles >= 0 && o.vehicles <= 5000, "vehicles", "must lie between 0 and 5000");
   require_option(o.pedestrians >= 0 && o.pedestrians <= 5000, "pedestrians", "must lie between 0 and 5000");
@@ -110,16 +114,21 @@ struct Drive::Impl {
   }
 
   Impl(const Town& t, const DriveOptions& o)
-      : town(&t), options(o), sensor(sensor_model(o.sensor)), path(plan(t, o)),
+      : town(&t),
+        options(o),
+        sensor(sensor_model(o.sensor)),
+        path(plan(t, o)),
         profile(path, t.roads, limits(o), task_seed(o.seed, {51})),
-        traffic(t, make_shapes(), {o.vehicles, o.pedestrians}, task_seed(o.seed, {52, static_cast<std::uint64_t>(o.day)})),
+        traffic(t, make_shapes(), {o.vehicles, o.pedestrians},
+                task_seed(o.seed, {52, static_cast<std::uint64_t>(o.day)})),
         revisits(find_revisits(path, t.roads)),
         ripples{Ripple(task_seed(o.seed, {53})), Ripple(task_seed(o.seed, {54})), Ripple(task_seed(o.seed, {55}))} {
     if (o.rate_hz > 0.0) {
       sensor = sensor.at_rate(o.rate_hz);
     }
     first_stamp = 0.5 / sensor.rate_hz;
-    count = static_cast<std::size_t>(std::max(1.0, std::floor((profile.duration_s() - 2.0 * first_stamp) * sensor.rate_hz)));
+    count = static_cast<std::size_t>(
+        std::max(1.0, std::floor((profile.duration_s() - 2.0 * first_stamp) * sensor.rate_hz)));
   }
 };
 

@@ -31,7 +31,8 @@ std::string format(const char* pattern, Values... values) {
 }
 
 std::string revisits_csv(const Drive& drive) {
-  std::string text = "kind,first_scan,last_scan,earlier_first_scan,earlier_last_scan,length_m,nearest_m,near_identical\n";
+  std::string text =
+      "kind,first_scan,last_scan,earlier_first_scan,earlier_last_scan,length_m,nearest_m,near_identical\n";
   const std::size_t last = drive.size() - 1;
   for (const Revisit& r : drive.revisits()) {
     const auto scan = [&](double distance) { return std::min(last, drive.scan_at(distance)); };
@@ -52,25 +53,30 @@ std::string town_json(const Town& town, const Drive& drive, const WriteOptions& 
     first += format(i == 0 ? "%.9f" : ", %.9f", T_town_first.matrix()(i / 4, i % 4));
   }
   constexpr std::array<const char*, 3> kLanes = {"right", "centre", "left"};
-  return format("{\n  \"town\": {\"seed\": %llu, \"columns\": %d, \"rows\": %d, \"max_slope\": %.3f, \"triangles\": %zu},\n",
-                static_cast<unsigned long long>(town.options.seed), town.options.columns, town.options.rows,
-                town.options.max_slope, town.mesh.size()) +
-         format("  \"drive\": {\"seed\": %llu, \"day\": %d, \"route\": \"%s\", \"lane\": \"%s\", \"reverse\": %s, "
-                "\"length_m\": %.2f, \"scans\": %zu, \"points\": %zu},\n",
-                static_cast<unsigned long long>(o.seed), o.day, o.route.c_str(),
-                kLanes[static_cast<std::size_t>(o.lane)], o.reverse ? "true" : "false", log.length_m, log.scans, log.points) +
-         format("  \"sensor\": {\"name\": \"%s\", \"label\": \"%s\", \"lasers\": %zu, \"columns\": %d, \"rate_hz\": %.3f, "
-                "\"max_range_m\": %.1f, \"height_m\": %.2f},\n",
-                s.name.c_str(), s.label.c_str(), s.elevation_rad.size(), s.columns, s.rate_hz, s.max_range_m, s.height_m) +
+  return format(
+             "{\n  \"town\": {\"seed\": %llu, \"columns\": %d, \"rows\": %d, \"max_slope\": %.3f, \"triangles\": "
+             "%zu},\n",
+             static_cast<unsigned long long>(town.options.seed), town.options.columns, town.options.rows,
+             town.options.max_slope, town.mesh.size()) +
+         format(
+             "  \"drive\": {\"seed\": %llu, \"day\": %d, \"route\": \"%s\", \"lane\": \"%s\", \"reverse\": %s, "
+             "\"length_m\": %.2f, \"scans\": %zu, \"points\": %zu},\n",
+             static_cast<unsigned long long>(o.seed), o.day, o.route.c_str(), kLanes[static_cast<std::size_t>(o.lane)],
+             o.reverse ? "true" : "false", log.length_m, log.scans, log.points) +
+         format(
+             "  \"sensor\": {\"name\": \"%s\", \"label\": \"%s\", \"lasers\": %zu, \"columns\": %d, \"rate_hz\": %.3f, "
+             "\"max_range_m\": %.1f, \"height_m\": %.2f},\n",
+             s.name.c_str(), s.label.c_str(), s.elevation_rad.size(), s.columns, s.rate_hz, s.max_range_m, s.height_m) +
          "  \"compensated\": " + (write.compensated ? "true" : "false") + ",\n  \"T_town_first\": [" + first + "]\n}\n";
 }
 
 std::string sweep_text(const Drive& drive, bool compensated) {
   const double period = 1.0 / drive.sensor().rate_hz;
-  return format("clockwise seen from above (+z), seam at the rear (azimuth +-180 deg), %.6f s a sweep; scans %s; time of a "
-                "point relative to the scan's reference time: -atan2(y, x) / (2 pi) * %.6f s%s\n",
-                period, compensated ? "motion compensated to their reference time" : "NOT motion compensated", period,
-                compensated ? " before compensation" : "");
+  return format(
+      "clockwise seen from above (+z), seam at the rear (azimuth +-180 deg), %.6f s a sweep; scans %s; time of a "
+      "point relative to the scan's reference time: -atan2(y, x) / (2 pi) * %.6f s%s\n",
+      period, compensated ? "motion compensated to their reference time" : "NOT motion compensated", period,
+      compensated ? " before compensation" : "");
 }
 
 void write_texts(const Town& town, const Drive& drive, const std::filesystem::path& folder, const WriteOptions& options,
@@ -85,7 +91,8 @@ void write_texts(const Town& town, const Drive& drive, const std::filesystem::pa
   write_file_atomically(folder / "times.txt", times);
   write_kitti(folder / "poses.txt", poses);
   const std::string camera = "1 0 0 0 0 1 0 0 0 0 1 0\n";
-  write_file_atomically(folder / "calib.txt", "P0: " + camera + "P1: " + camera + "P2: " + camera + "P3: " + camera + "Tr: " + camera);
+  write_file_atomically(folder / "calib.txt",
+                        "P0: " + camera + "P1: " + camera + "P2: " + camera + "P3: " + camera + "Tr: " + camera);
   write_file_atomically(folder / "sweep.txt", sweep_text(drive, options.compensated));
   write_file_atomically(folder / "revisits.csv", revisits_csv(drive));
   write_file_atomically(folder / "town.json", town_json(town, drive, options, log));
@@ -95,7 +102,9 @@ void write_texts(const Town& town, const Drive& drive, const std::filesystem::pa
 class ScanStore {
  public:
   ScanStore(const std::filesystem::path& folder, const Drive& drive, const WriteOptions& options)
-      : folder_(folder / "velodyne"), format_(options.format), T_first_town_(drive.pose(drive.stamp_s(0)).inverse()),
+      : folder_(folder / "velodyne"),
+        format_(options.format),
+        T_first_town_(drive.pose(drive.stamp_s(0)).inverse()),
         drive_(drive) {
     if (format_ == LogFormat::kRawlog) {
       rawlog_ = std::make_unique<RawlogWriter>(folder / "drive.rawlog", drive.sensor().label);

@@ -42,8 +42,7 @@ void add_strip(Builder& b, const RoadEdge& edge, double from, double to, double 
     const LinePoint& p = points[static_cast<std::size_t>(i)];
     const LinePoint& q = points[static_cast<std::size_t>(i) + 1];
     const double probe = edge.half_width_m + 0.9;
-    const Eigen::Vector2d middle =
-        0.5 * (p.position + q.position) + (from + to < 0.0 ? -probe : probe) * p.right();
+    const Eigen::Vector2d middle = 0.5 * (p.position + q.position) + (from + to < 0.0 ? -probe : probe) * p.right();
     if (skip_on_carriageway && b.plan.at(middle) == GroundUse::kCarriageway) {
       continue;
     }
@@ -63,7 +62,8 @@ void add_carriageway(Builder& b, const RoadEdge& edge) {
   if (edge.sidewalk_m > 0.0) {
     for (const double side : {-1.0, 1.0}) {
       add_strip(b, edge, side * w, side * (w + 0.01), -kCamber * w, kKerbHeight, {Material::kConcrete, 160}, true);
-      add_strip(b, edge, side * (w + 0.01), side * (w + edge.sidewalk_m), kKerbHeight, kKerbHeight + 0.03, kPaving, true);
+      add_strip(b, edge, side * (w + 0.01), side * (w + edge.sidewalk_m), kKerbHeight, kKerbHeight + 0.03, kPaving,
+                true);
     }
   }
 }
@@ -114,10 +114,14 @@ void add_bridge(Builder& b, const RoadEdge& edge) {
 double open_height(const Builder& b, const Eigen::Vector2d& p, std::uint64_t seed) {
   const double base = b.town.terrain.ground(p);
   switch (b.plan.at(p)) {
-    case GroundUse::kCarriageway: return base - 0.3;
-    case GroundUse::kSidewalk: return base - 0.02;
-    case GroundUse::kWater: return base;
-    default: return base + 0.10 + 0.05 * place_noise(seed, p, 3.0) + 0.10 * place_noise(seed + 1, p, 11.0);
+    case GroundUse::kCarriageway:
+      return base - 0.3;
+    case GroundUse::kSidewalk:
+      return base - 0.02;
+    case GroundUse::kWater:
+      return base;
+    default:
+      return base + 0.10 + 0.05 * place_noise(seed, p, 3.0) + 0.10 * place_noise(seed + 1, p, 11.0);
   }
 }
 

@@ -56,9 +56,7 @@ std::size_t GroundPlan::cell(const Eigen::Vector2d& p) const {
          static_cast<std::size_t>(g.x() + 0.5);
 }
 
-GroundUse GroundPlan::at(const Eigen::Vector2d& p) const {
-  return contains(p) ? cells_[cell(p)] : GroundUse::kTaken;
-}
+GroundUse GroundPlan::at(const Eigen::Vector2d& p) const { return contains(p) ? cells_[cell(p)] : GroundUse::kTaken; }
 
 void GroundPlan::mark_disc(const Eigen::Vector2d& centre, double radius, GroundUse use) {
   all_in_disc(centre, radius, [&](const Eigen::Vector2d& p) {

@@ -83,7 +83,8 @@ class PathBuilder {
       const double t = static_cast<double>(i) / count;
       const double t2 = t * t;
       const double t3 = t2 * t;
-      add((2 * t3 - 3 * t2 + 1) * p0 + (t3 - 2 * t2 + t) * reach * t0 + (-2 * t3 + 3 * t2) * p1 + (t3 - t2) * reach * t1,
+      add((2 * t3 - 3 * t2 + 1) * p0 + (t3 - 2 * t2 + t) * reach * t0 + (-2 * t3 + 3 * t2) * p1 +
+              (t3 - t2) * reach * t1,
           edge);
     }
   }

@@ -20,11 +20,16 @@ struct ZoneStyle {
 
 ZoneStyle style_of(Zone zone) {
   switch (zone) {
-    case Zone::kApartments: return {15, 28, 11, 13.5, 2, 5.5, 3, 8, 3, 6};
-    case Zone::kVillas: return {8.5, 12.5, 8, 10.5, 4, 7.5, 4, 8, 1, 2};
-    case Zone::kCommercial: return {18, 34, 14, 20, 9, 14, 4, 10, 1, 2};
-    case Zone::kTwins: return {9.2, 9.2, 9.5, 9.5, 3.2, 3.2, 3.2, 3.2, 2, 2};
-    default: return {5.8, 9.2, 9, 11.5, 0.0, 2.2, 0, 0, 2, 4};
+    case Zone::kApartments:
+      return {15, 28, 11, 13.5, 2, 5.5, 3, 8, 3, 6};
+    case Zone::kVillas:
+      return {8.5, 12.5, 8, 10.5, 4, 7.5, 4, 8, 1, 2};
+    case Zone::kCommercial:
+      return {18, 34, 14, 20, 9, 14, 4, 10, 1, 2};
+    case Zone::kTwins:
+      return {9.2, 9.2, 9.5, 9.5, 3.2, 3.2, 3.2, 3.2, 2, 2};
+    default:
+      return {5.8, 9.2, 9, 11.5, 0.0, 2.2, 0, 0, 2, 4};
   }
 }
 
@@ -33,8 +38,9 @@ class LotBuilder {
   LotBuilder(Builder& b, const RoadEdge& edge, double side, std::uint64_t seed)
       : b_(b), front_(edge, side), rng_(seed), style_(style_of(edge.zone)) {
     setback_ = rng_.uniform(style_.setback_low, style_.setback_high);
-    street_floors_ = style_.floors_low + static_cast<int>(rng_.below(static_cast<std::uint32_t>(
-                                             style_.floors_high - style_.floors_low + 1)));
+    street_floors_ =
+        style_.floors_low +
+        static_cast<int>(rng_.below(static_cast<std::uint32_t>(style_.floors_high - style_.floors_low + 1)));
     wall_ = rng_.uniform() < 0.5 ? Material::kPlaster : Material::kBrick;
   }
 
@@ -108,8 +114,8 @@ class LotBuilder {
     spec.style.ledge = rng_.uniform() < 0.5 ? rng_.uniform(0.04, 0.14) : 0.0;
     spec.style.bay = rng_.uniform() < 0.2;
     const Zone zone = front_.edge.zone;
-    spec.roof = zone == Zone::kCommercial || (zone == Zone::kApartments && rng_.uniform() < 0.7) ? Roof::kFlat
-                                                                                                : Roof::kGable;
+    spec.roof =
+        zone == Zone::kCommercial || (zone == Zone::kApartments && rng_.uniform() < 0.7) ? Roof::kFlat : Roof::kGable;
     spec.style.shop_front = zone == Zone::kCommercial || (zone == Zone::kTerraced && rng_.uniform() < 0.2);
     spec.style.balcony_every = zone == Zone::kApartments ? 1 + static_cast<int>(rng_.below(3)) : 0;
     spec.joined_left = spec.joined_right = zone == Zone::kTerraced && joined_;
@@ -158,7 +164,8 @@ class LotBuilder {
       if (kind < 0.4) {
         border = make_hedge(length, 0.7, shape.uniform(0.8, 1.7), shape);
       } else if (kind < 0.65) {
-        add_box(border, Pose::Identity(), {0, -0.12, -0.5}, {length, 0.12, shape.uniform(0.5, 1.2)}, {Material::kBrick, 128});
+        add_box(border, Pose::Identity(), {0, -0.12, -0.5}, {length, 0.12, shape.uniform(0.5, 1.2)},
+                {Material::kBrick, 128});
       } else if (kind < 0.85) {
         add_fence(border, length);
       }

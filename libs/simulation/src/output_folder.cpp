@@ -22,7 +22,8 @@ OutputFolder::OutputFolder(std::filesystem::path folder) : folder_(std::move(fol
   std::filesystem::remove_all(partial_, error);
   std::filesystem::create_directories(partial_, error);
   if (error) {
-    throw InputError(partial_.string(), "", "cannot make the folder: " + error.message(), "check the rights of its parent");
+    throw InputError(partial_.string(), "", "cannot make the folder: " + error.message(),
+                     "check the rights of its parent");
   }
 }
 

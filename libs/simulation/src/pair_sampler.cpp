@@ -19,8 +19,8 @@ namespace loopmark::simulation {
 namespace {
 
 constexpr std::size_t kBins = 7;
-constexpr std::size_t kSources = 8;    ///< sources tried in one round, in parallel
-constexpr std::size_t kTrials = 7;     ///< targets tried for each source
+constexpr std::size_t kSources = 8;  ///< sources tried in one round, in parallel
+constexpr std::size_t kTrials = 7;   ///< targets tried for each source
 constexpr double kTrialCoarseness = 4.0;
 constexpr std::size_t kPatience = 10;  ///< rounds without a pair until a bin counts as out of reach
 constexpr double kNoOverlap = 0.005;
@@ -46,11 +46,16 @@ struct Candidate {
 class Sampler {
  public:
   Sampler(const Town& town, const PairOptions& options, const ScanSink& sink)
-      : town_(town), o_(options), sink_(sink), places_(town), sensors_{sensor_model(options.sensor),
-        sensor_model(options.sensor_b.empty() ? options.sensor : options.sensor_b)} {
+      : town_(town),
+        o_(options),
+        sink_(sink),
+        places_(town),
+        sensors_{sensor_model(options.sensor),
+                 sensor_model(options.sensor_b.empty() ? options.sensor : options.sensor_b)} {
     for (int day = 1; day <= options.days; ++day) {
       worlds_.emplace_back(town, day);
-      traffic_.emplace_back(town, worlds_.back().shapes(), TrafficOptions{}, task_seed(options.seed, {70, static_cast<std::uint64_t>(day)}));
+      traffic_.emplace_back(town, worlds_.back().shapes(), TrafficOptions{},
+                            task_seed(options.seed, {70, static_cast<std::uint64_t>(day)}));
     }
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       wanted_[bin] = (options.pairs + kBins - 1 - bin) / kBins;
@@ -128,7 +133,8 @@ class Sampler {
   /// Distances to try: half of them spread evenly, half of them closer, where overlap changes fast.
   std::pair<double, double> distance_range(std::size_t trial, Rng& rng) const {
     const double u = rng.uniform();
-    const double d = trial % 2 == 0 ? 1.5 + u * (o_.max_distance_m - 3.5) : std::exp(u * std::log(0.4 * o_.max_distance_m));
+    const double d =
+        trial % 2 == 0 ? 1.5 + u * (o_.max_distance_m - 3.5) : std::exp(u * std::log(0.4 * o_.max_distance_m));
     return {std::max(0.5, d - 1.5), std::min(o_.max_distance_m - 1.5, d + 1.5)};
   }
 
@@ -225,7 +231,8 @@ void check(const PairOptions& o) {
   require_option(o.days >= 1 && o.days <= 8, "days", "must lie between 1 and 8");
   require_option(o.min_overlap >= 0.02 && o.max_overlap <= 0.98 && o.min_overlap + 0.05 <= o.max_overlap, "min_overlap",
                  "must be at least 0.02 and 0.05 less than max_overlap, which is at most 0.98");
-  require_option(o.max_distance_m >= 5.0 && o.max_distance_m <= 200.0, "max_distance_m", "must lie between 5 and 200 metres");
+  require_option(o.max_distance_m >= 5.0 && o.max_distance_m <= 200.0, "max_distance_m",
+                 "must lie between 5 and 200 metres");
 }
 
 PairSample sample_pairs(const Town& town, const PairOptions& options, const ScanSink& sink) {

@@ -12,7 +12,7 @@ struct TreeSpec {
   double height = 8.0;
   double crown_radius = 2.4;
   double trunk_radius = 0.16;
-  double crown_base = 2.4;   ///< height of the lowest leaves
+  double crown_base = 2.4;  ///< height of the lowest leaves
   int leaves = 340;
 };
 Mesh make_tree(const TreeSpec& spec, Rng& rng);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kStep = 1.0;
 
 struct Meeting {
-  double at = 0.0;        ///< along the path
+  double at = 0.0;  ///< along the path
   double earlier = 0.0;
   double distance = 0.0;
   RevisitKind kind = RevisitKind::kSame;
@@ -22,8 +22,9 @@ struct Meeting {
 
 RevisitKind kind_of(double turn_rad) {
   const double turn = std::abs(std::remainder(turn_rad, 2.0 * std::numbers::pi));
-  return turn < 0.25 * std::numbers::pi ? RevisitKind::kSame
-                                        : (turn > 0.75 * std::numbers::pi ? RevisitKind::kOpposite : RevisitKind::kCrossing);
+  return turn < 0.25 * std::numbers::pi
+             ? RevisitKind::kSame
+             : (turn > 0.75 * std::numbers::pi ? RevisitKind::kOpposite : RevisitKind::kCrossing);
 }
 
 /// Finds for each metre of the path the nearest earlier place.
@@ -61,7 +62,8 @@ class Finder {
         for (const int j : found == cells_.end() ? std::vector<int>{} : found->second) {
           const double distance = (path_.position(j * kStep) - p).norm();
           if (distance < (best ? best->distance : rule_.near_m)) {
-            best = Meeting{i * kStep, j * kStep, distance, kind_of(path_.heading(i * kStep) - path_.heading(j * kStep))};
+            best =
+                Meeting{i * kStep, j * kStep, distance, kind_of(path_.heading(i * kStep) - path_.heading(j * kStep))};
           }
         }
       }
@@ -100,10 +102,13 @@ Revisit make_revisit(const std::vector<Meeting>& run, const LanePath& path, cons
 
 const char* name_of(RevisitKind kind) {
   switch (kind) {
-    case RevisitKind::kSame: return "same";
-    case RevisitKind::kOpposite: return "opposite";
+    case RevisitKind::kSame:
+      return "same";
+    case RevisitKind::kOpposite:
+      return "opposite";
     case RevisitKind::kCrossing:
-    default: return "crossing";
+    default:
+      return "crossing";
   }
 }
 

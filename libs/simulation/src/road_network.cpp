@@ -152,8 +152,10 @@ class Planner {
     const double east = layout_.river_x;
     const double mid = 0.5 * (at(first).y() + at(last).y());
     const double reach = 0.5 * (at(first).y() - at(last).y());
-    const Line middle = {{east + 55.0, at(first).y() + 12.0}, {east + 165.0, mid + 0.62 * reach},
-                         {east + 180.0, mid - 0.55 * reach},  {east + 55.0, at(last).y() - 10.0}};
+    const Line middle = {{east + 55.0, at(first).y() + 12.0},
+                         {east + 165.0, mid + 0.62 * reach},
+                         {east + 180.0, mid - 0.55 * reach},
+                         {east + 55.0, at(last).y() - 10.0}};
     std::vector<int> chain = {first};
     for (const Eigen::Vector2d& p : middle) {
       roads().nodes.push_back({p, {}, false});

@@ -16,9 +16,9 @@ namespace {
 
 /// A random walk that prefers new streets or known ones.
 struct Taste {
-  double again = 0.5;       ///< weight of a street that was driven already; a new one weighs 1
-  double alike = 1.0;       ///< extra weight of the alike blocks
-  double turn_back = 0.0;   ///< chance of a U-turn at a node
+  double again = 0.5;      ///< weight of a street that was driven already; a new one weighs 1
+  double alike = 1.0;      ///< extra weight of the alike blocks
+  double turn_back = 0.0;  ///< chance of a U-turn at a node
 };
 
 Route random_walk(const RoadNetwork& roads, double length, const Taste& taste, Rng& rng) {
@@ -35,7 +35,8 @@ Route random_walk(const RoadNetwork& roads, double length, const Taste& taste, R
       if (!route.edges.empty() && edge == route.edges.back()) {
         continue;
       }
-      const double weight = (driven[edge] == 0 ? 1.0 : taste.again) * (roads.edges[edge].near_identical ? taste.alike : 1.0);
+      const double weight =
+          (driven[edge] == 0 ? 1.0 : taste.again) * (roads.edges[edge].near_identical ? taste.alike : 1.0);
       choices.emplace_back(edge, weight);
       total += weight;
     }
@@ -56,7 +57,7 @@ Route random_walk(const RoadNetwork& roads, double length, const Taste& taste, R
     node = roads.other_end(next, node);
   }
   route.edges.push_back(roads.nodes[node].edges.front() == route.edges.back() ? roads.nodes[node].edges.back()
-                                                                           : roads.nodes[node].edges.front());
+                                                                              : roads.nodes[node].edges.front());
   return route;
 }
 
@@ -118,7 +119,8 @@ Route best_walk(const Town& town, double length, std::uint64_t name, int tries, 
   Route best;
   double best_score = -1e9;
   for (int i = 0; i < tries; ++i) {
-    Rng rng(task_seed(town.options.seed, {30, name, static_cast<std::uint64_t>(length), static_cast<std::uint64_t>(i)}));
+    Rng rng(
+        task_seed(town.options.seed, {30, name, static_cast<std::uint64_t>(length), static_cast<std::uint64_t>(i)}));
     const Taste taste{rng.uniform(0.05, again_high), rng.uniform(0.7, 2.0), rng.uniform(0.0, turn_back)};
     Route route = random_walk(town.roads, length, taste, rng);
     const double value = score(route);
@@ -192,7 +194,9 @@ Route plan_route(const Town& town, const std::string& name, double length_m) {
   }
   if (name == "open") {
     const int country = static_cast<int>(town.roads.nodes.size()) - 2;
-    return round_trip(town, {node(columns, rows - 1), country, node(columns, 1), node(columns - 1, 1), node(columns - 1, rows - 1)}, length);
+    return round_trip(
+        town, {node(columns, rows - 1), country, node(columns, 1), node(columns - 1, 1), node(columns - 1, rows - 1)},
+        length);
   }
   throw InputError("unknown route \"" + name + "\" (choose from tour, explore, twins, open)");
 }

@@ -32,7 +32,8 @@ SpeedProfile::SpeedProfile(const LanePath& path, const RoadNetwork& roads, const
     speed_.front() = 0.0;
   }
   for (std::size_t i = 1; i < count; ++i) {
-    speed_[i] = std::min(speed_[i], std::sqrt(speed_[i - 1] * speed_[i - 1] + 2.0 * limits.accelerate_mps2 * kPathStep));
+    speed_[i] =
+        std::min(speed_[i], std::sqrt(speed_[i - 1] * speed_[i - 1] + 2.0 * limits.accelerate_mps2 * kPathStep));
   }
   for (std::size_t i = count - 1; i-- > 0;) {
     speed_[i] = std::min(speed_[i], std::sqrt(speed_[i + 1] * speed_[i + 1] + 2.0 * limits.brake_mps2 * kPathStep));

@@ -140,7 +140,8 @@ class StreetFurnisher {
       const LinePoint p = front.at(s, edge_.half_width_m - 1.02);
       const Eigen::Vector2d heading = front.side > 0.0 ? Eigen::Vector2d(-p.tangent) : p.tangent;
       const double z = b_.town.terrain.road(p.position) - kCamber * (edge_.half_width_m - 1.0);
-      b_.town.parking.push_back({pose_from_yaw(std::atan2(heading.y(), heading.x()), {p.position.x(), p.position.y(), z}), chance});
+      b_.town.parking.push_back(
+          {pose_from_yaw(std::atan2(heading.y(), heading.x()), {p.position.x(), p.position.y(), z}), chance});
     }
   }
 

@@ -25,9 +25,7 @@ StreetPlaces::StreetPlaces(const Town& town) : town_(&town) {
   }
 }
 
-StreetPlace StreetPlaces::any(Rng& rng) const {
-  return places_[rng.below(static_cast<std::uint32_t>(places_.size()))];
-}
+StreetPlace StreetPlaces::any(Rng& rng) const { return places_[rng.below(static_cast<std::uint32_t>(places_.size()))]; }
 
 StreetPlace StreetPlaces::at_distance(const Eigen::Vector2d& p, double low, double high, Rng& rng) const {
   std::vector<std::size_t> fitting;

@@ -33,8 +33,14 @@ class Sweeper {
  public:
   Sweeper(const World& world, const World::Moving* moving, const SensorModel& sensor, const SensorMotion& motion,
           Motion frame, std::uint64_t seed)
-      : world_(world), moving_(moving), sensor_(sensor), motion_(motion), frame_(frame), seed_(seed),
-        T_stamp_world_(motion(0.0).inverse()), column_s_(1.0 / (sensor.rate_hz * sensor.columns)) {}
+      : world_(world),
+        moving_(moving),
+        sensor_(sensor),
+        motion_(motion),
+        frame_(frame),
+        seed_(seed),
+        T_stamp_world_(motion(0.0).inverse()),
+        column_s_(1.0 / (sensor.rate_hz * sensor.columns)) {}
 
   PointCloud columns(std::size_t begin, std::size_t end) const {
     std::vector<Shot> shots;
@@ -53,9 +59,9 @@ class Sweeper {
 
  private:
   struct Shot {
-    Eigen::Vector3d direction;   ///< in the sensor's frame at that moment
+    Eigen::Vector3d direction;  ///< in the sensor's frame at that moment
     double time_s;
-    double ego_m;                ///< range of the car's own body in the way; infinity: none
+    double ego_m;  ///< range of the car's own body in the way; infinity: none
     std::uint16_t ring;
   };
 
@@ -75,7 +81,8 @@ class Sweeper {
       const double time = begin + sensor_.fire_offset_s[laser];
       const double azimuth = -2.0 * std::numbers::pi * sensor_.rate_hz * time;
       const double level = std::cos(sensor_.elevation_rad[laser]);
-      const Eigen::Vector3d direction(level * std::cos(azimuth), level * std::sin(azimuth), std::sin(sensor_.elevation_rad[laser]));
+      const Eigen::Vector3d direction(level * std::cos(azimuth), level * std::sin(azimuth),
+                                      std::sin(sensor_.elevation_rad[laser]));
       double ego = std::numeric_limits<double>::infinity();
       for (const EgoBox& box : sensor_.ego) {
         ego = std::min(ego, direction.z() < -0.05 ? box_distance(box, direction) : ego);
@@ -167,8 +174,9 @@ Scan render_scan(const World& world, const Drive& drive, std::size_t index, Moti
   const auto moving = world.place(drive.traffic().bodies(scan.stamp_s - half, scan.stamp_s + half,
                                                          drive.pose(scan.stamp_s), drive.sensor().max_range_m + 10.0));
   const SensorMotion motion = [&](double offset_s) { return drive.pose(scan.stamp_s + offset_s); };
-  scan.cloud = render_sweep(world, moving.get(), drive.sensor(), motion, frame,
-                            task_seed(drive.options().seed, {60, static_cast<std::uint64_t>(drive.options().day), index}));
+  scan.cloud =
+      render_sweep(world, moving.get(), drive.sensor(), motion, frame,
+                   task_seed(drive.options().seed, {60, static_cast<std::uint64_t>(drive.options().day), index}));
   return scan;
 }
 

@@ -47,7 +47,8 @@ Town make_town(const TownOptions& options) {
   town.options = options;
   RoadLayout layout = make_roads({options.seed, options.columns, options.rows});
   town.roads = std::move(layout.network);
-  town.terrain = Terrain(options.seed, {layout.low, layout.high, layout.level_rows_y, layout.river_x, options.max_slope});
+  town.terrain =
+      Terrain(options.seed, {layout.low, layout.high, layout.level_rows_y, layout.river_x, options.max_slope});
   GroundPlan plan(layout.low, layout.high);
   Builder builder{town, plan};
   mark_streets(builder);

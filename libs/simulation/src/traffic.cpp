@@ -49,8 +49,10 @@ Traffic::Traffic(const Town& town, const ShapeList& shapes, const TrafficOptions
   for (int i = 0; i < options.vehicles; ++i) {
     Rng rng(task_seed(seed, {40, static_cast<std::uint64_t>(i)}));
     paths_.push_back(make_lane_path(town.roads, wander(town.roads, 30, rng), 1.75));
-    const std::size_t kind = rng.uniform() < 0.8 ? rng.below(4) : rng.below(static_cast<std::uint32_t>(shapes.vehicles));
-    actors_.push_back({kind, paths_.size() - 1, rng.uniform() * paths_.back().length(), rng.uniform(5.0, 11.0), false, -0.02});
+    const std::size_t kind =
+        rng.uniform() < 0.8 ? rng.below(4) : rng.below(static_cast<std::uint32_t>(shapes.vehicles));
+    actors_.push_back(
+        {kind, paths_.size() - 1, rng.uniform() * paths_.back().length(), rng.uniform(5.0, 11.0), false, -0.02});
   }
   for (int i = 0; i < options.pedestrians; ++i) {
     Rng rng(task_seed(seed, {41, static_cast<std::uint64_t>(i)}));
@@ -61,7 +63,8 @@ Traffic::Traffic(const Town& town, const ShapeList& shapes, const TrafficOptions
       continue;
     }
     paths_.push_back(std::move(path));
-    const std::size_t shape = shapes.vehicles + rng.below(static_cast<std::uint32_t>(shapes.meshes.size() - shapes.vehicles));
+    const std::size_t shape =
+        shapes.vehicles + rng.below(static_cast<std::uint32_t>(shapes.meshes.size() - shapes.vehicles));
     actors_.push_back({shape, paths_.size() - 1, rng.uniform() * paths_.back().length(), rng.uniform(0.7, 1.7), true,
                        kKerbHeight + 0.03});
   }

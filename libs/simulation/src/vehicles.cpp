@@ -14,27 +14,36 @@ struct VehicleShape {
   std::vector<Eigen::Vector2d> body;   ///< side view (x, z), lower part, convex
   std::vector<Eigen::Vector2d> cabin;  ///< side view of the glazed part, convex; may be empty
   double wheel_radius;
-  double wheel_x;                      ///< of the axles, from the middle
+  double wheel_x;  ///< of the axles, from the middle
 };
 
 VehicleShape car_shape(double length, double rear_slope, double height) {
   const double h = 0.5 * length;
   VehicleShape s{length, 1.78, {}, {}, 0.31, 0.30 * length};
   s.body = {{-h, 0.35}, {-h + 0.12, 0.22}, {h - 0.12, 0.22}, {h, 0.38}, {h, 0.62}, {h - 0.85, 0.88}, {-h, 0.92}};
-  s.cabin = {{-h + 0.05 + rear_slope * 0.3, 0.88}, {h - 1.15, 0.86}, {h - 1.95, height}, {-h + 0.25 + rear_slope, height}};
+  s.cabin = {
+      {-h + 0.05 + rear_slope * 0.3, 0.88}, {h - 1.15, 0.86}, {h - 1.95, height}, {-h + 0.25 + rear_slope, height}};
   return s;
 }
 
 VehicleShape shape_of(VehicleKind kind) {
   switch (kind) {
-    case VehicleKind::kHatchback: return car_shape(4.0, 0.35, 1.47);
-    case VehicleKind::kSaloon: return car_shape(4.7, 1.25, 1.45);
-    case VehicleKind::kEstate: return car_shape(4.75, 0.25, 1.52);
+    case VehicleKind::kHatchback:
+      return car_shape(4.0, 0.35, 1.47);
+    case VehicleKind::kSaloon:
+      return car_shape(4.7, 1.25, 1.45);
+    case VehicleKind::kEstate:
+      return car_shape(4.75, 0.25, 1.52);
     case VehicleKind::kVan:
-      return {5.3, 1.98, {{-2.65, 0.25}, {2.55, 0.25}, {2.65, 0.9}, {2.2, 1.25}, {1.5, 2.2}, {-2.65, 2.25}}, {}, 0.34, 1.6};
+      return {5.3, 1.98, {{-2.65, 0.25}, {2.55, 0.25}, {2.65, 0.9}, {2.2, 1.25}, {1.5, 2.2}, {-2.65, 2.25}},
+              {},  0.34, 1.6};
     case VehicleKind::kTruck:
-      return {8.2, 2.45, {{-4.1, 0.95}, {2.0, 0.95}, {2.0, 3.4}, {-4.1, 3.4}}, {{2.2, 0.45}, {4.1, 0.45}, {4.1, 1.4},
-              {3.8, 2.7}, {2.2, 2.8}}, 0.48, 2.9};
+      return {8.2,
+              2.45,
+              {{-4.1, 0.95}, {2.0, 0.95}, {2.0, 3.4}, {-4.1, 3.4}},
+              {{2.2, 0.45}, {4.1, 0.45}, {4.1, 1.4}, {3.8, 2.7}, {2.2, 2.8}},
+              0.48,
+              2.9};
     case VehicleKind::kBus:
     default:
       return {11.5, 2.5, {{-5.75, 0.35}, {5.6, 0.35}, {5.75, 1.2}, {5.55, 3.0}, {-5.75, 3.0}}, {}, 0.48, 3.3};

@@ -18,17 +18,17 @@ namespace loopmark::simulation {
 enum class Lane { kRight, kCentre, kLeft };
 
 struct DriveOptions {
-  std::uint64_t seed = 1;          ///< noise, speeds, halts and traffic; not the town and not the route
-  int day = 1;                     ///< other days, other parked cars and other traffic
+  std::uint64_t seed = 1;  ///< noise, speeds, halts and traffic; not the town and not the route
+  int day = 1;             ///< other days, other parked cars and other traffic
   std::string sensor = "hdl64e";
   std::string route = "tour";
   double length_m = 1000.0;
   Lane lane = Lane::kRight;
-  bool reverse = false;            ///< drives the route from its end, on its own right-hand side
-  double rate_hz = 0.0;            ///< sweeps a second; 0: the sensor's own
-  double halt_every_m = 260.0;     ///< mean distance between halts; 0: none
-  bool from_standstill = false;    ///< else the log starts while moving
-  int vehicles = 26;               ///< moving in the town
+  bool reverse = false;          ///< drives the route from its end, on its own right-hand side
+  double rate_hz = 0.0;          ///< sweeps a second; 0: the sensor's own
+  double halt_every_m = 260.0;   ///< mean distance between halts; 0: none
+  bool from_standstill = false;  ///< else the log starts while moving
+  int vehicles = 26;             ///< moving in the town
   int pedestrians = 45;
 };
 
@@ -39,7 +39,8 @@ void describe(Visitor& v, DriveOptions& o) {
   v.field("sensor", o.sensor, "hdl64e, hdl32e, vlp16 or os1-64");
   v.field("route", o.route, "tour, explore, twins or open");
   v.field("length_m", o.length_m, "driven distance, metres");
-  v.choice("lane", o.lane, {{"right", Lane::kRight}, {"centre", Lane::kCentre}, {"left", Lane::kLeft}}, "lane driven on");
+  v.choice("lane", o.lane, {{"right", Lane::kRight}, {"centre", Lane::kCentre}, {"left", Lane::kLeft}},
+           "lane driven on");
   v.field("reverse", o.reverse, "drive the route from its end");
   v.field("rate_hz", o.rate_hz, "sweeps a second; 0: the sensor's own");
   v.field("halt_every_m", o.halt_every_m, "mean distance between halts, metres; 0: none");

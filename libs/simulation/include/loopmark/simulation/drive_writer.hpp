@@ -39,7 +39,8 @@ struct WrittenLog {
 ///   sweep.txt           how the time of a point follows from its azimuth
 ///   revisits.csv        the stretches that come back to earlier ones
 ///   town.json           how the log was made
-/// The folder appears whole or not at all: it is written as FOLDER.partial and renamed. Throws InputError when it exists.
+/// The folder appears whole or not at all: it is written as FOLDER.partial and renamed. Throws InputError when it
+/// exists.
 WrittenLog write_drive(const World& world, const Town& town, const Drive& drive, const std::filesystem::path& folder,
                        const WriteOptions& options);
 

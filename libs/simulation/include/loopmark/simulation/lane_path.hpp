@@ -10,7 +10,7 @@ namespace loopmark::simulation {
 
 /// A walk over the street graph. The same edge twice in a row is a U-turn.
 struct Route {
-  int start = 0;             ///< node
+  int start = 0;  ///< node
   std::vector<int> edges;
 
   /// The walk from its end back to its start.
@@ -23,8 +23,8 @@ struct Route {
 inline constexpr double kPathStep = 0.25;
 struct LanePath {
   std::vector<Eigen::Vector2d> points;
-  std::vector<double> heading_rad;   ///< unwrapped
-  std::vector<int> edge;             ///< street of each sample
+  std::vector<double> heading_rad;  ///< unwrapped
+  std::vector<int> edge;            ///< street of each sample
 
   double length() const { return points.empty() ? 0.0 : kPathStep * static_cast<double>(points.size() - 1); }
   Eigen::Vector2d position(double distance) const;

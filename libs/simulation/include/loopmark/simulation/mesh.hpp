@@ -13,8 +13,24 @@ namespace loopmark::simulation {
 
 /// What a surface is made of; decides how much of a beam comes back (sensor.hpp).
 enum class Material : std::uint8_t {
-  kAsphalt, kPaving, kGrass, kBrick, kPlaster, kConcrete, kRoof, kGlass, kMetal, kPaint, kRubber, kBark, kLeaf,
-  kCloth, kSign, kWood, kWater, kCount
+  kAsphalt,
+  kPaving,
+  kGrass,
+  kBrick,
+  kPlaster,
+  kConcrete,
+  kRoof,
+  kGlass,
+  kMetal,
+  kPaint,
+  kRubber,
+  kBark,
+  kLeaf,
+  kCloth,
+  kSign,
+  kWood,
+  kWater,
+  kCount
 };
 
 /// A material and how light this piece of it is: 0 the darkest, 255 the lightest of its kind.

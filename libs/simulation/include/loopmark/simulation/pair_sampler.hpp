@@ -16,14 +16,14 @@ namespace loopmark::simulation {
 
 struct PairOptions {
   std::size_t pairs = 100;
-  std::size_t negatives = 50;         ///< pairs of different places without overlap; half of them look alike
-  std::string sensor = "hdl64e";      ///< of the source scans
-  std::string sensor_b;               ///< of the target scans; empty: the same
-  int days = 2;                       ///< the target is seen on one of so many days; 1: parked cars do not change
-  double min_overlap = 0.2;           ///< symmetric overlap, spread evenly from here ...
-  double max_overlap = 0.9;           ///< ... to here
+  std::size_t negatives = 50;     ///< pairs of different places without overlap; half of them look alike
+  std::string sensor = "hdl64e";  ///< of the source scans
+  std::string sensor_b;           ///< of the target scans; empty: the same
+  int days = 2;                   ///< the target is seen on one of so many days; 1: parked cars do not change
+  double min_overlap = 0.2;       ///< symmetric overlap, spread evenly from here ...
+  double max_overlap = 0.9;       ///< ... to here
   double max_distance_m = 100.0;
-  bool any_yaw = true;                ///< sensors are mounted at any yaw; else they look along the street
+  bool any_yaw = true;  ///< sensors are mounted at any yaw; else they look along the street
   std::uint64_t seed = 1;
 };
 

@@ -28,8 +28,8 @@ struct RoadEdge {
   double sidewalk_m = 2.4;            ///< 0: no sidewalk
   double speed_limit_mps = 11.0;
   Zone zone = Zone::kTerraced;
-  bool near_identical = false;        ///< one of a row of blocks that look alike
-  bool turned = false;                ///< its furnishing is the template turned by half a turn
+  bool near_identical = false;  ///< one of a row of blocks that look alike
+  bool turned = false;          ///< its furnishing is the template turned by half a turn
 };
 
 struct RoadNetwork {

@@ -21,18 +21,18 @@ struct EgoBox {
 /// seam is at the rear, and t lies in [-0.5, 0.5) / rate.
 struct SensorModel {
   std::string name;
-  std::string label;                     ///< as sold
-  std::vector<double> elevation_rad;     ///< one a laser, ring 0 the lowest
-  std::vector<double> fire_offset_s;     ///< one a laser, after the start of its column
-  int columns = 1800;                    ///< columns a sweep at `rate_hz`
+  std::string label;                  ///< as sold
+  std::vector<double> elevation_rad;  ///< one a laser, ring 0 the lowest
+  std::vector<double> fire_offset_s;  ///< one a laser, after the start of its column
+  int columns = 1800;                 ///< columns a sweep at `rate_hz`
   double rate_hz = 10.0;
   double min_range_m = 0.9;
   double max_range_m = 100.0;
-  double noise_m = 0.02;                 ///< standard deviation of the range on a wall seen squarely
-  double reach_10_m = 50.0;              ///< a target of 10 % reflectance is seen half of the time at this range
-  double blocked_centre_rad = 0.0;       ///< sector that something on the roof hides: azimuth of its middle
-  double blocked_width_rad = 0.0;        ///< its width; 0: none
-  double height_m = 1.73;                ///< above the ground
+  double noise_m = 0.02;            ///< standard deviation of the range on a wall seen squarely
+  double reach_10_m = 50.0;         ///< a target of 10 % reflectance is seen half of the time at this range
+  double blocked_centre_rad = 0.0;  ///< sector that something on the roof hides: azimuth of its middle
+  double blocked_width_rad = 0.0;   ///< its width; 0: none
+  double height_m = 1.73;           ///< above the ground
   std::vector<EgoBox> ego;
 
   std::size_t rays_per_sweep() const { return elevation_rad.size() * static_cast<std::size_t>(columns); }

@@ -31,8 +31,8 @@ class Traffic {
     std::size_t path = 0;
     double start_m = 0.0;
     double speed_mps = 8.0;
-    bool to_and_fro = false;   ///< turns round at the ends of its path; else starts over
-    double rise_m = 0.0;       ///< above the street's height
+    bool to_and_fro = false;  ///< turns round at the ends of its path; else starts over
+    double rise_m = 0.0;      ///< above the street's height
   };
   Pose pose(const Actor& actor, double time_s) const;
 

@@ -14,9 +14,9 @@ struct Ray {
   Eigen::Vector3f origin = Eigen::Vector3f::Zero();
   Eigen::Vector3f direction = Eigen::Vector3f::UnitX();  ///< unit length
   float range_m = 120.0F;
-  float moment = 0.5F;   ///< when it is fired: 0 the start, 1 the end of the sweep
+  float moment = 0.5F;  ///< when it is fired: 0 the start, 1 the end of the sweep
   bool hit = false;
-  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();     ///< unit length, either side
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  ///< unit length, either side
   Surface surface;
 };
 
