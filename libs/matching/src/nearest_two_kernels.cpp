@@ -40,6 +40,9 @@ LOOPMARK_DISPATCH
 std::size_t leaf_hits(const float* q, const float* leaf, float threshold, std::uint8_t* __restrict hits) {
   constexpr std::size_t kChunk = 16;
   using Vector = float __attribute__((vector_size(4 * kChunk), aligned(4)));
+  using Lanes = int __attribute__((vector_size(4 * kChunk)));
+  constexpr Lanes kLaneBits = {1,      2,      4,      8,      1 << 4,  1 << 5,  1 << 6,  1 << 7,
+                               1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
   using Words = long long __attribute__((vector_size(4 * kChunk)));
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < kLeaf; begin += kChunk) {
@@ -48,13 +51,11 @@ std::size_t leaf_hits(const float* q, const float* leaf, float threshold, std::u
       const Vector gap = *reinterpret_cast<const Vector*>(leaf + d * kLeaf + begin) - q[d];
       bound += gap * gap;
     }
-    const auto below = bound < threshold;
-    const Words any = (Words)below;
-    if (((any[0] | any[1]) | (any[2] | any[3]) | (any[4] | any[5]) | (any[6] | any[7])) != 0) {
-      for (std::size_t l = 0; l < kChunk; ++l) {
-        hits[count] = static_cast<std::uint8_t>(begin + l);
-        count -= static_cast<std::size_t>(static_cast<std::ptrdiff_t>(below[l]));
-      }
+    // One bit a lane, gathered by OR over the halves of the eight 64-bit words.
+    const Words any = (Words)((bound < threshold) & kLaneBits);
+    const long long both = ((any[0] | any[1]) | (any[2] | any[3])) | ((any[4] | any[5]) | (any[6] | any[7]));
+    for (auto bits = static_cast<std::uint32_t>(both | both >> 32); bits != 0; bits &= bits - 1) {
+      hits[count++] = static_cast<std::uint8_t>(begin + static_cast<std::size_t>(__builtin_ctz(bits)));
     }
   }
   return count;

@@ -8,7 +8,7 @@
 namespace loopmark::kernels {
 
 /// Descriptors are grouped into leaves of this many.
-constexpr std::size_t kLeaf = 64;
+constexpr std::size_t kLeaf = 128;
 /// Principal coordinates used for bounds, and behind them one more: the length of the rest.
 constexpr std::size_t kHead = 8;
 constexpr std::size_t kBound = kHead + 1;
