@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "compensation_of_log.hpp"
 #include "loopmark/io/log_report.hpp"
 
 namespace loopmark::app {
@@ -23,7 +24,8 @@ constexpr const char* kExamples = R"(Examples:
 Nothing is written.)";
 
 int doctor_of_log(const DriveLog& log, bool json) {
-  const LogReport report = examine_log(log);
+  LogReport report = examine_log(log);
+  report.compensation = describe_measurement(compensation_of_log(log));
   std::fputs((json ? report_json(report) : report_text(report)).c_str(), stdout);
   return report.usable > 0 ? 0 : static_cast<int>(ExitCode::kInput);
 }
