@@ -34,7 +34,14 @@ class Collection {
       add(make_motions_algorithm(name, motions_of_pairs(set_.pairs, read_motions(file), file)));
     }
     for (const std::string& name : all_names()) {
-      add(by_name(name));
+      if (name == "engine" || arguments_.features.empty()) {
+        add(by_name(name));
+        continue;
+      }
+      for (const std::string& text : arguments_.features) {
+        const auto [domain, folder] = named(text, std::filesystem::path(text).filename().string());
+        add(make_named_algorithm(name, domain, folder));
+      }
     }
     for (const std::string& text : arguments_.commands) {
       const auto [name, command] = named(text, "command");

@@ -48,6 +48,9 @@ void add_run_options(CLI::App& command, EvaluateArguments& a) {
   command.add_option("--command", a.commands, "a program: COMMAND or NAME=COMMAND; may be repeated");
   command.add_option("--refine", a.refine, "each algorithm once more with: icp, sym-icp, bbr, plane-icp, gicp; by commas")
       ->delimiter(',');
+  command.add_option("--features", a.features,
+                     "NAME=FOLDER with descriptors FOLDER/SESSION/FRAME.npz: the paper's variants use them in place of "
+                     "FPFH and are called VARIANT@NAME; may be repeated");
   command.add_option("--repeats", a.repeats, "runs of each variant of the paper with other seeds, NAME#1, NAME#2, ... (1)");
   command.add_option("--time-limit", a.time_limit_s, "of a program for one pair, seconds (30)");
   command.add_option("--max-rotation", a.criterion.max_rotation_deg, "success: RE below this, degrees (5)");

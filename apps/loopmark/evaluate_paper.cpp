@@ -39,8 +39,10 @@ std::vector<DomainResult> domain_results(const PaperArguments& a) {
   for (const std::string& input : a.inputs) {
     const auto [name, path] = named_input(input);
     const std::size_t colon = name.find(':');
-    const std::string test = name.substr(0, colon);
-    results.push_back({test, colon == std::string::npos ? "-" : name.substr(colon + 1), read_result(path)});
+    const std::string train = colon == std::string::npos ? "-" : name.substr(colon + 1);
+    for (DomainResult& domain : split_by_domain(name.substr(0, colon), train, read_result(path))) {
+      results.push_back(std::move(domain));
+    }
   }
   return results;
 }

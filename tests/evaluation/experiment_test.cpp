@@ -226,7 +226,7 @@ TEST(Refined, ImprovesAnEarlierAnswer) {
   for (const std::string& method : refinement_methods()) {
     const auto refined = make_refined_algorithm("base", method);
     EXPECT_EQ(refined->name(), "base+" + method);
-    const Answer answer = refined->answer({0, {}, &scans, &earlier});
+    const Answer answer = refined->answer({0, {}, &scans, nullptr, &earlier});
     EXPECT_LT(pose_error(answer.T_target_source, truth).translation_m, 0.05) << method;
   }
   EXPECT_THROW(make_refined_algorithm("base", "nothing"), InputError);

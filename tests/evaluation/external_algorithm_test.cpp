@@ -42,7 +42,7 @@ Answer ask(RegistrationAlgorithm& algorithm, std::size_t index = 0) {
   PointCloud cloud;
   cloud.points = {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}};
   PairScans scans(cloud, cloud);
-  return algorithm.answer({index, {}, &scans, nullptr});
+  return algorithm.answer({index, {}, &scans, nullptr, nullptr});
 }
 
 TEST(ExternalAlgorithm, AnswersWithAMotionAScoreAndItsTime) {

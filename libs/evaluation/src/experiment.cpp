@@ -129,7 +129,7 @@ class Run {
     for (const auto& algorithm : algorithms_) {
       if (!writer_.done(algorithm->name(), index)) {
         check_interrupt();
-        Answer answer = algorithm->answer({index, task_.set.key(index), scans.get(), &answers});
+        Answer answer = algorithm->answer({index, task_.set.key(index), scans.get(), perturbation(index), &answers});
         answers[algorithm->name()] = answer;
         record(judged(index, algorithm->name(), std::move(answer)));
       }
@@ -141,10 +141,14 @@ class Run {
   std::unique_ptr<PairScans> load_scans(std::size_t index) const {
     const PairKey& key = task_.set.key(index);
     PointCloud source = load_(key.session, key.source);
-    if (index < task_.perturbations.size()) {
-      source = transformed(source, task_.perturbations[index]);
+    if (const Pose* moved = perturbation(index)) {
+      source = transformed(source, *moved);
     }
     return std::make_unique<PairScans>(std::move(source), load_(key.target_session, key.target));
+  }
+
+  const Pose* perturbation(std::size_t index) const {
+    return index < task_.perturbations.size() ? &task_.perturbations[index] : nullptr;
   }
 
   bool needs_scans(std::size_t index) const {

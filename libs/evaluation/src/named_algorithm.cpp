@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
 #include <utility>
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/algorithm.hpp"
+#include "loopmark/features/descriptor_file.hpp"
 #include "loopmark/registration/named_algorithms.hpp"
 #include "loopmark/registration/paper_pipeline.hpp"
 
@@ -25,10 +27,26 @@ std::string description_key(const PaperOptions& options) {
          std::to_string(options.normals.radius_m) + ", fpfh " + std::to_string(options.fpfh.radius_m);
 }
 
+/// The file of a frame's descriptors. Throws InputError when there is none.
+std::filesystem::path descriptor_file(const std::filesystem::path& folder, int session, int frame) {
+  char padded[32];
+  std::snprintf(padded, sizeof padded, "%06d.npz", frame);
+  const std::filesystem::path of_session = folder / std::to_string(session);
+  for (const std::string& name : {std::string(padded), std::to_string(frame) + ".npz"}) {
+    if (std::filesystem::exists(of_session / name)) {
+      return of_session / name;
+    }
+  }
+  throw InputError((of_session / padded).string(), "", "no such file",
+                   "--features wants FOLDER/SESSION/FRAME.npz for every frame of the set");
+}
+
 class PaperAlgorithm : public RegistrationAlgorithm {
  public:
-  PaperAlgorithm(std::string name, PaperOptions options)
-      : name_(std::move(name)), options_(std::move(options)), key_(description_key(options_)) {
+  /// `features`: folder of descriptors made elsewhere; empty: FPFH.
+  PaperAlgorithm(std::string name, PaperOptions options, std::filesystem::path features)
+      : name_(std::move(name)), options_(std::move(options)), features_(std::move(features)),
+        key_(features_.empty() ? description_key(options_) : "descriptors of " + features_.string()) {
     options_.refine = false;
   }
 
@@ -38,14 +56,25 @@ class PaperAlgorithm : public RegistrationAlgorithm {
   }
 
   Answer answer(const PairTask& task) override {
-    const DescribedScan& source = described(*task.scans, task.scans->source(), "source");
-    const DescribedScan& target = described(*task.scans, task.scans->target(), "target");
+    const DescribedScan& source = task.scans->shared<DescribedScan>("source, " + key_, [&] {
+      return described(task.scans->source(), task.key.session, task.key.source, task.perturbation);
+    });
+    const DescribedScan& target = task.scans->shared<DescribedScan>("target, " + key_, [&] {
+      return described(task.scans->target(), task.key.target_session, task.key.target, nullptr);
+    });
     return answer_of(register_described(source, target, options_), source, target);
   }
 
  private:
-  const DescribedScan& described(PairScans& scans, const PointCloud& cloud, const std::string& which) const {
-    return scans.shared<DescribedScan>(which + ", " + key_, [&] { return describe_scan(cloud, options_); });
+  DescribedScan described(const PointCloud& cloud, int session, int frame, const Pose* moved) const {
+    if (features_.empty()) {
+      return describe_scan(cloud, options_);
+    }
+    DescriptorFile file = read_descriptors(descriptor_file(features_, session, frame));
+    for (Eigen::Vector3f& point : file.points) {
+      point = moved == nullptr ? point : Eigen::Vector3f((*moved * point.cast<double>()).cast<float>());
+    }
+    return described_scan(std::move(file.points), std::move(file.descriptors), cloud, options_);
   }
 
   static Answer answer_of(const PaperResult& result, const DescribedScan& source, const DescribedScan& target) {
@@ -68,12 +97,12 @@ class PaperAlgorithm : public RegistrationAlgorithm {
 
   std::string name_;
   PaperOptions options_;
+  std::filesystem::path features_;
   std::string key_;
 };
 
-}  // namespace
-
-std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name) {
+/// The options behind a name; "NAME#3" has the seed 3.
+PaperOptions options_of(const std::string& name) {
   const std::size_t mark = name.find('#');
   PaperOptions options = named_algorithm(name.substr(0, mark));
   if (mark != std::string::npos) {
@@ -83,7 +112,21 @@ std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& n
     }
     options.ransac.seed = std::stoull(number);
   }
-  return std::make_unique<PaperAlgorithm>(name, std::move(options));
+  return options;
+}
+
+}  // namespace
+
+std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name) {
+  return std::make_unique<PaperAlgorithm>(name, options_of(name), "");
+}
+
+std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name, const std::string& domain,
+                                                            const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError(folder.string(), "", "no such folder", "--features NAME=FOLDER");
+  }
+  return std::make_unique<PaperAlgorithm>(name + "@" + domain, options_of(name), folder);
 }
 
 }  // namespace loopmark

@@ -90,7 +90,40 @@ double cross(const RunPoint& o, const RunPoint& a, const RunPoint& b) {
   return (a.seconds - o.seconds) * (b.recall - o.recall) - (a.recall - o.recall) * (b.seconds - o.seconds);
 }
 
+/// "ransac_gpf@Boston+icp" -> {"ransac_gpf+icp", "Boston"}.
+std::pair<std::string, std::string> without_domain(const std::string& name, const std::string& otherwise) {
+  const std::size_t at = name.find('@');
+  if (at == std::string::npos) {
+    return {name, otherwise};
+  }
+  const std::size_t end = std::min(name.find('+', at), name.size());
+  return {name.substr(0, at) + name.substr(end), name.substr(at + 1, end - at - 1)};
+}
+
 }  // namespace
+
+std::vector<DomainResult> split_by_domain(const std::string& test, const std::string& train, const StoredResult& result) {
+  std::vector<DomainResult> domains;
+  const auto domain_of = [&](const std::string& name) -> StoredResult& {
+    const auto found = std::find_if(domains.begin(), domains.end(), [&](const auto& d) { return d.train == name; });
+    if (found != domains.end()) {
+      return found->result;
+    }
+    domains.push_back({test, name, {result.experiment, result.set, {}}});
+    domains.back().result.experiment.algorithms.clear();
+    return domains.back().result;
+  };
+  for (const std::string& algorithm : result.experiment.algorithms) {
+    const auto [name, domain] = without_domain(algorithm, train);
+    domain_of(domain).experiment.algorithms.push_back(name);
+  }
+  for (Outcome outcome : result.outcomes) {
+    const auto [name, domain] = without_domain(outcome.algorithm, train);
+    outcome.algorithm = name;
+    domain_of(domain).outcomes.push_back(std::move(outcome));
+  }
+  return domains;
+}
 
 TextTable paper_evaluation_table(const StoredResult& result, bool cross_domain) {
   TextTable table{cross_domain ? "cross_domain" : "evaluation",

@@ -3,6 +3,7 @@
 /// What competes in an experiment.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -44,6 +45,7 @@ struct PairTask {
   std::size_t index = 0;                          ///< place in the set; negatives follow behind the positives
   PairKey key;
   PairScans* scans = nullptr;                     ///< null where no algorithm needs scans; perturbed already
+  const Pose* perturbation = nullptr;             ///< by which the source was moved; null: it was not
   const std::map<std::string, Answer>* earlier = nullptr;  ///< answers to this pair of the algorithms before
 };
 
@@ -66,6 +68,11 @@ std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const EngineOptions
 /// A variant of the paper's pipeline (named_algorithms()), without its refinement. "NAME#3" is NAME with the seed 3.
 /// Algorithms that describe scans alike share the descriptors of a pair.
 std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name);
+
+/// The same on descriptors made elsewhere, called "NAME@DOMAIN": keypoints and descriptors of a frame are read from
+/// folder/SESSION/FRAME.npz (read_descriptors), FRAME as a plain number or with six digits.
+std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name, const std::string& domain,
+                                                            const std::filesystem::path& folder);
 
 /// Answers that were found before: one motion a pair. Pairs behind the last (negatives) fail.
 std::unique_ptr<RegistrationAlgorithm> make_motions_algorithm(std::string name, std::vector<Pose> motions);

@@ -17,6 +17,10 @@ struct DomainResult {
   StoredResult result;
 };
 
+/// One result for each train domain: algorithms VARIANT@TRAIN (descriptors of that domain) become VARIANT of TRAIN;
+/// those without stay together under `train`.
+std::vector<DomainResult> split_by_domain(const std::string& test, const std::string& train, const StoredResult& result);
+
 /// Recall and mean seconds of each algorithm alone and with ICP ("Evaluation of Registration Algorithms"; cross:
 /// "Cross-Domain Evaluation"). An algorithm X stands in one row with X+icp.
 TextTable paper_evaluation_table(const StoredResult& result, bool cross);
