@@ -6,8 +6,12 @@
 
 #include "loopmark/evaluation/balance_options.hpp"
 #include "loopmark/io/dataset.hpp"
+#include "loopmark/occupancy/occupancy_options.hpp"
+#include "loopmark/odometry/options.hpp"
+#include "loopmark/pose_graph/pose_graph_options.hpp"
 #include "loopmark/registration/engine_options.hpp"
 #include "loopmark/simulation/options.hpp"
+#include "loopmark/slam/options.hpp"
 
 namespace loopmark::app {
 
@@ -15,7 +19,11 @@ namespace loopmark::app {
 struct AppOptions {
   LogOptions log;
   DatasetOptions dataset;
+  OdometryOptions odometry;
   EngineOptions registration;
+  SlamOptions slam;
+  PoseGraphOptions pose_graph;
+  OccupancyOptions occupancy;
   BalanceOptions balance;
   simulation::SimulationOptions simulation;
 };
@@ -24,7 +32,11 @@ template <class Visitor>
 void describe(Visitor& v, AppOptions& o) {
   v.section("log", o.log, "reading of drive logs");
   v.section("dataset", o.dataset, "data sets of many drives");
+  v.section("odometry", o.odometry, "alignment of each scan to a local map");
   v.section("registration", o.registration, "global registration of two scans");
+  v.section("slam", o.slam, "keyframes, loops and the map");
+  v.section("pose_graph", o.pose_graph, "robust solution of the pose graph");
+  v.section("occupancy", o.occupancy, "OctoMap");
   v.section("balance", o.balance, "choice of balanced sets of frame pairs");
   v.section("simulation", o.simulation, "simulated towns, drives and pairs");
 }

@@ -114,6 +114,28 @@ TEST(Odometry, TheSameBytesAtAnyNumberOfThreads) {
   EXPECT_TRUE(one.matrix() == two.matrix());
 }
 
+TEST(Odometry, GoesOnFromItsSavedState) {
+  const Drive drive;
+  Odometry whole({}, Compensation::kRawClockwise);
+  Odometry second({}, Compensation::kRawClockwise);
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (i == 5) {
+      second.set_state(whole.state());
+    }
+    const Scan scan = drive.scan(i, 0.1 * static_cast<double>(i));
+    whole.commit(whole.track(scan));
+    if (i >= 5) {
+      second.commit(second.track(scan));
+    }
+  }
+  const Scan next = drive.scan(8, 0.8);
+  EXPECT_TRUE(whole.track(next).T_map_lidar.matrix() == second.track(next).T_map_lidar.matrix());
+  std::string damaged = whole.state();
+  damaged[damaged.size() / 2] ^= 1;
+  EXPECT_THROW(second.set_state(damaged), InputError);
+  EXPECT_THROW(second.set_state("short"), InputError);
+}
+
 TEST(Odometry, EmptyAndDamagedCloudsAreLostNotFatal) {
   Odometry odometry({}, Compensation::kCompensated);
   const Drive drive;

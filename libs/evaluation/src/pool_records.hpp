@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "loopmark/evaluation/candidate_pool.hpp"
-#include "loopmark/evaluation/record_file.hpp"
+#include "loopmark/core/record_file.hpp"
 
 namespace loopmark::detail {
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCD (point cloud data) files, version 0.7 and earlier ones.
 #include <cstring>
-#include <memory>
 #include <vector>
 
 #include "point_columns.hpp"

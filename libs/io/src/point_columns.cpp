@@ -154,8 +154,7 @@ PointCloud drop_senseless(PointCloud cloud, const LogOptions& options, DroppedPo
 
 PointFile decode_points(const PointColumns& columns, const LogOptions& options) {
   PointFile file;
-  thread_local std::vector<std::uint32_t> kept;
-  kept.clear();
+  std::vector<std::uint32_t> kept;
   const auto max_range = static_cast<float>(options.max_range_m);
   if (coordinates_are(columns, NumberType::kFloat32)) {
     keep_usable<float>(columns, max_range, file, kept);

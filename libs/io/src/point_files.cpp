@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <vector>
 
 #include "point_columns.hpp"
 #include "point_formats.hpp"
@@ -40,23 +39,20 @@ class Descriptor {
 
 }  // namespace
 
-std::span<const char> read_bytes(const std::filesystem::path& path) {
+FileBytes::FileBytes(const std::filesystem::path& path) {
   const Descriptor file(path);
   struct stat status {};
   if (file.get() < 0 || ::fstat(file.get(), &status) != 0) {
     throw DamagedScan(path.string(), "", std::string("cannot read: ") + std::strerror(errno));
   }
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size == 0) {
+  size_ = static_cast<std::size_t>(status.st_size);
+  if (size_ == 0) {
     throw DamagedScan(path.string(), "byte 0", "the file is empty", kCopyAgain);
   }
-  thread_local std::vector<char> buffer;
-  if (buffer.size() < size) {
-    buffer.resize(size);
-  }
+  data_.reset(new char[size_]);  // make_unique would clear the memory first
   std::size_t done = 0;
-  while (done < size) {
-    const ssize_t got = ::read(file.get(), buffer.data() + done, size - done);
+  while (done < size_) {
+    const ssize_t got = ::read(file.get(), data_.get() + done, size_ - done);
     if (got < 0 && errno == EINTR) {
       continue;
     }
@@ -66,7 +62,6 @@ std::span<const char> read_bytes(const std::filesystem::path& path) {
     }
     done += static_cast<std::size_t>(got);
   }
-  return {buffer.data(), size};
 }
 
 void throw_truncated(const std::string& file, std::size_t bytes_there, std::size_t bytes_needed) {
@@ -128,16 +123,16 @@ std::vector<double> read_ascii_table(std::span<const char> bytes, std::size_t ro
 PointFile read_point_file(const std::filesystem::path& path, const LogOptions& options) {
   const std::string file = path.string();
   const std::string name = io::lower_case(path.filename().string());
-  const std::span<const char> content = io::read_bytes(path);
+  const io::FileBytes content(path);
   if (name.ends_with(".pcd")) {
-    return io::read_pcd(content, file, options);
+    return io::read_pcd(content.bytes(), file, options);
   }
   if (name.ends_with(".ply")) {
-    return io::read_ply(content, file, options);
+    return io::read_ply(content.bytes(), file, options);
   }
   if (name.ends_with(".bin")) {
     const std::size_t guess = name.ends_with(".pcd.bin") ? 5 : 4;
-    return io::read_bin(content, options.bin_columns > 0 ? options.bin_columns : guess, file, options);
+    return io::read_bin(content.bytes(), options.bin_columns > 0 ? options.bin_columns : guess, file, options);
   }
   throw DamagedScan(file, "", "not a point file", "known are .bin, .pcd and .ply");
 }

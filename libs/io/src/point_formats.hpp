@@ -5,17 +5,25 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "loopmark/io/point_files.hpp"
 
 namespace loopmark::io {
 
-/// A file's bytes, in a buffer of the calling thread that holds them until its next call: fresh memory for each
-/// scan would cost more time than reading it. Throws DamagedScan when the file cannot be read or is empty.
-std::span<const char> read_bytes(const std::filesystem::path& path);
+/// A file's bytes, read in one go.
+class FileBytes {
+ public:
+  /// Throws DamagedScan when the file cannot be read or is empty.
+  explicit FileBytes(const std::filesystem::path& path);
+  std::span<const char> bytes() const { return {data_.get(), size_}; }
+
+ private:
+  std::unique_ptr<char[]> data_;
+  std::size_t size_ = 0;
+};
 
 /// Throws DamagedScan: the file ends before what its header or layout promises.
 [[noreturn]] void throw_truncated(const std::string& file, std::size_t bytes_there, std::size_t bytes_needed);

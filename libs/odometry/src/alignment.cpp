@@ -131,6 +131,7 @@ Health judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T, 
   Health health;
   health.keypoints = keypoints;
   health.inlier_share = keypoints > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(keypoints) : 0.0;
+  health.unmapped_share = keypoints > 0 ? 1.0 - static_cast<double>(sums.matches) / static_cast<double>(keypoints) : 1.0;
   health.fit_share = sums.matches > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(sums.matches) : 0.0;
   health.residual_m = sums.inliers > 0 ? std::sqrt(sums.squares / static_cast<double>(sums.inliers)) : 0.0;
   health.degenerate_directions = weak_directions(sums.H_planes, keypoints, T, options.degenerate_share);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "loopmark/core/parallel.hpp"
+#include "state_bytes.hpp"
 
 namespace loopmark {
 namespace {
@@ -176,6 +177,37 @@ void LocalMap::forget_beyond(const Eigen::Vector3d& center, double radius) {
   }
   table_ = std::move(table);
   cells_ = std::move(cells);
+}
+
+std::string LocalMap::to_bytes() const {
+  ByteWriter writer;
+  writer.value(voxel_m_);
+  writer.value(capacity_);
+  writer.vector(table_.voxels());
+  for (const Cell& cell : cells_) {
+    writer.value(cell.count);
+    for (std::uint32_t p = 0; p < cell.count; ++p) {
+      writer.raw(cell.offset[p].data(), 3);
+      writer.raw(cell.normal[p].data(), 3);
+    }
+  }
+  return writer.bytes();
+}
+
+LocalMap LocalMap::from_bytes(const std::string& bytes) {
+  ByteReader reader(bytes);
+  const auto voxel_m = reader.value<double>();
+  LocalMap map(voxel_m, reader.value<std::size_t>());
+  for (const Voxel& voxel : reader.vector<Voxel>()) {
+    map.table_.insert(voxel);
+    Cell& cell = map.cells_.emplace_back();
+    cell.count = std::min<std::uint32_t>(reader.value<std::uint32_t>(), kMaxPoints);
+    for (std::uint32_t p = 0; p < cell.count; ++p) {
+      reader.raw(cell.offset[p].data(), 3);
+      reader.raw(cell.normal[p].data(), 3);
+    }
+  }
+  return map;
 }
 
 }  // namespace loopmark

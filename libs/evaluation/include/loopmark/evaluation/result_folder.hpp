@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "loopmark/evaluation/record_file.hpp"
+#include "loopmark/core/record_file.hpp"
 #include "loopmark/evaluation/summary.hpp"
 
 namespace loopmark {

@@ -22,6 +22,7 @@ struct Health {
   std::string reason;           ///< why tracking is lost; empty otherwise
   std::size_t keypoints = 0;    ///< that were aligned
   double inlier_share = 0.0;    ///< of the keypoints, those that fit a surface of the map
+  double unmapped_share = 0.0;  ///< of the keypoints, those with nothing of the map nearby: new surroundings
   double fit_share = 0.0;       ///< the same, of the keypoints that have a point of the map nearby
   /// Inliers against those of the best answer elsewhere around; 0: not looked for, as enough points fit.
   double margin = 0.0;

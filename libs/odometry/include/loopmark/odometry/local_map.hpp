@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "loopmark/core/pose.hpp"
@@ -35,6 +36,10 @@ class LocalMap {
 
   /// Drops the voxels whose corner is farther than `radius` from `center`.
   void forget_beyond(const Eigen::Vector3d& center, double radius);
+
+  /// The whole map as bytes, for the same program on the same machine; from_bytes throws InputError on others.
+  std::string to_bytes() const;
+  static LocalMap from_bytes(const std::string& bytes);
 
   double voxel_m() const { return voxel_m_; }
   bool empty() const { return cells_.empty(); }

@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "loopmark/cloud/deskew.hpp"
@@ -48,6 +49,11 @@ class Odometry {
 
   /// The scan's points in range, deskewed to its stamp with the velocity found.
   PointCloud deskewed_cloud(const Scan& scan, const Vector6d& velocity) const;
+
+  /// All that the next scan depends on, as bytes for the same program with the same options. set_state throws
+  /// InputError on bytes that are damaged.
+  std::string state() const;
+  void set_state(const std::string& bytes);
 
   bool deskews() const;
   const std::optional<LocalMap>& map() const { return map_; }

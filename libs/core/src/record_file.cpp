@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loopmark/evaluation/record_file.hpp"
+#include "loopmark/core/record_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -43,7 +43,7 @@ RecordLines read_records(const std::filesystem::path& path) {
       if (!last) {
         throw InputError(path.string(), "line " + std::to_string(records.lines.size() + 1),
                          "damaged record in the middle of the file",
-                         "delete the file: its pairs are computed again");
+                         "delete the file: its records are computed again");
       }
       records.torn = true;
       return records;

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_run.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <future>
+
+#include "loopmark/core/files.hpp"
+#include "loopmark/core/interrupt.hpp"
+#include "loopmark/core/progress.hpp"
+#include "loopmark/io/drive_log.hpp"
+#include "loopmark/io/trajectory.hpp"
+#include "loopmark/slam/engine_registrar.hpp"
+#include "loopmark/slam/products.hpp"
+
+namespace loopmark::app {
+namespace {
+
+constexpr std::size_t kCheckpointEvery = 500;  // scans
+
+/// A scan, or why there is none.
+struct Read {
+  Scan scan;
+  std::string problem;
+};
+
+Read read_scan(const DriveLog& log, std::size_t index) {
+  try {
+    return {log.read(index), ""};
+  } catch (const DamagedScan& damage) {
+    return {{}, damage.what()};
+  }
+}
+
+std::string memory_text() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::to_string(usage.ru_maxrss / 1024) + " MB";
+}
+
+std::string progress_note(const Mapper& mapper, double seconds, double first_stamp_s) {
+  char text[96];
+  const double driven_s = mapper.scans().back().stamp_s - first_stamp_s;
+  std::snprintf(text, sizeof text, "%.1f x real time, %zu keyframes, %s", seconds > 0.0 ? driven_s / seconds : 0.0,
+                mapper.keyframes().size(), memory_text().c_str());
+  return text;
+}
+
+void take_in(Mapper& mapper, const DriveLog& log, std::size_t index, const Read& read) {
+  if (!read.problem.empty()) {
+    mapper.add_damaged(index, log.stamp_s(index), read.problem);
+    return;
+  }
+  try {
+    mapper.add(read.scan);
+  } catch (const DamagedScan& damage) {
+    mapper.add_damaged(index, log.stamp_s(index), log.scan_name(index) + ": " + damage.what());
+  }
+}
+
+/// Every scan of the log goes through the mapper; the next one is read meanwhile.
+void feed(Mapper& mapper, const DriveLog& log, MapTimes& times) {
+  Progress progress("scans", log.size());
+  progress.add(mapper.scans().size());
+  const Stopwatch watch;
+  std::future<Read> next;
+  const auto read_ahead = [&](std::size_t index) {
+    return std::async(std::launch::async, [&log, index] { return read_scan(log, index); });
+  };
+  for (std::size_t index = mapper.scans().size(); index < log.size(); ++index) {
+    Stopwatch part;
+    const Read read = next.valid() ? next.get() : read_scan(log, index);
+    if (index + 1 < log.size()) {
+      next = read_ahead(index + 1);
+    }
+    times.reading += part.seconds();
+    part.reset();
+    take_in(mapper, log, index, read);
+    times.odometry += part.seconds();
+    progress.add(1, progress_note(mapper, watch.seconds(), mapper.scans().front().stamp_s));
+    if (interrupt_requested()) {
+      mapper.checkpoint();
+      check_interrupt();
+    }
+    if ((index + 1) % kCheckpointEvery == 0 || index + 1 == log.size()) {
+      mapper.checkpoint();
+    }
+  }
+}
+
+void close_loops(Mapper& mapper, MapTimes& times) {
+  const Stopwatch watch;
+  std::unique_ptr<Progress> progress;
+  std::size_t shown = 0;
+  mapper.close_loops([&](std::size_t done, std::size_t total) {
+    if (!progress) {
+      progress = std::make_unique<Progress>("loop candidates", total);
+    }
+    progress->add(done - shown, memory_text());
+    shown = done;
+  });
+  times.loops = watch.seconds();
+}
+
+Compensation compensation_of(const DriveLog& log, const SlamOptions& options, bool timed) {
+  if (options.compensation != Compensation::kUnknown) {
+    return options.compensation;
+  }
+  if (log.info().motion_compensated.value_or(true)) {
+    return Compensation::kCompensated;
+  }
+  if (timed) {
+    return Compensation::kRawGivenTimes;
+  }
+  return log.info().sweep && !log.info().sweep->clockwise ? Compensation::kRawCounterClockwise : Compensation::kRawClockwise;
+}
+
+std::string name(Compensation compensation) {
+  switch (compensation) {
+    case Compensation::kCompensated:
+      return "compensated already";
+    case Compensation::kRawGivenTimes:
+      return "deskewed with the points' times";
+    case Compensation::kRawClockwise:
+      return "deskewed, times rebuilt (clockwise)";
+    case Compensation::kRawCounterClockwise:
+      return "deskewed, times rebuilt (counter-clockwise)";
+    case Compensation::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+/// The first scan that can be read tells whether points have times.
+bool points_have_times(const DriveLog& log) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(log.size(), 20); ++i) {
+    const Read read = read_scan(log, i);
+    if (read.problem.empty()) {
+      return read.scan.cloud.time_offset_s.size() == read.scan.cloud.size();
+    }
+  }
+  return false;
+}
+
+std::vector<Pose> truth_of(const DriveLog& log, const std::filesystem::path& file) {
+  std::vector<Pose> truth = log.truth();
+  if (!file.empty()) {
+    truth = read_trajectory(file).poses;
+  }
+  if (!truth.empty() && truth.size() != log.size()) {
+    throw InputError(file.string(), "", std::to_string(truth.size()) + " poses for " + std::to_string(log.size()) + " scans",
+                     "the truth must have one pose for each scan");
+  }
+  return truth;
+}
+
+MapSummary summarize(const Mapper& mapper, const SolvedMap& map, const std::vector<Pose>& truth) {
+  MapSummary s;
+  s.scans = mapper.scans().size();
+  for (const ScanRecord& scan : mapper.scans()) {
+    s.recovered += scan.state == ScanState::kRecovered ? 1 : 0;
+    if (scan.state == ScanState::kDamaged) {
+      ++s.damaged;
+      s.damage.push_back(scan.problem);
+    }
+  }
+  s.keyframes = map.keyframes.size();
+  s.candidates = map.loops.size();
+  s.loops = static_cast<std::size_t>(
+      std::count_if(map.loops.begin(), map.loops.end(), [](const LoopVerdict& loop) { return loop.accepted; }));
+  s.components = map.components;
+  s.path_m = map.keyframes.back().path_m;
+  s.duration_s = mapper.scans().back().stamp_s - mapper.scans().front().stamp_s;
+  if (!truth.empty()) {
+    s.absolute = absolute_error(map.T_map_scan, truth);
+    s.kitti = kitti_error(map.T_map_scan, truth);
+    std::vector<Pose> odometry;
+    for (const ScanRecord& scan : mapper.scans()) {
+      odometry.push_back(scan.T_piece_lidar);
+    }
+    s.absolute_odometry = absolute_error(odometry, truth);
+  }
+  return s;
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+}  // namespace
+
+MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options) {
+  const Stopwatch whole;
+  const std::string started = utc_now();
+  MapOutcome outcome;
+  MapTimes& times = outcome.times;
+  const std::unique_ptr<DriveLog> log = open_log(job.log, options.log);
+  const std::vector<Pose> truth = truth_of(*log, job.truth);
+  const Compensation compensation = compensation_of(*log, options.slam, points_have_times(*log));
+
+  Mapper mapper(folder, {options.odometry, options.slam, options.pose_graph}, engine_registrar(options.registration),
+                compensation, log->info().sweep.value_or(SweepModel{}));
+  feed(mapper, *log, times);
+  if (mapper.keyframes().empty()) {
+    throw InputError(job.log.string(), "", "no scan could be used");
+  }
+  close_loops(mapper, times);
+  Stopwatch part;
+  const SolvedMap map = mapper.solve();
+  times.solving = part.seconds();
+
+  part.reset();
+  write_trajectory_products(folder, mapper.scans(), mapper.loops(), map);
+  write_occupancy(folder, map, options.occupancy);
+  write_clouds(folder, map, options.slam.cloud_voxel_m);
+  write_mrpt_products(folder, mapper.scans(), mapper.loops(), map);
+  times.products = part.seconds();
+  outcome.summary = summarize(mapper, map, truth);
+  outcome.summary.compensation = name(compensation);
+  times.whole = whole.seconds();
+  write_map_report(folder, mapper, map, outcome.summary, times, truth);
+  write_summary(folder, outcome.summary, times);
+  write_manifest(folder, {{"map", job.log.string()}, job.log.string(), "", started, times.whole, 0});
+  folder.finish();
+  return outcome;
+}
+
+}  // namespace loopmark::app

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app_options.hpp"
+#include "loopmark/slam/mapper.hpp"
+#include "loopmark/slam/trajectory_metrics.hpp"
+
+namespace loopmark::app {
+
+/// What `loopmark map` is asked to do; kept in the run folder, so that it can be resumed.
+struct MapJob {
+  std::filesystem::path log;
+  std::filesystem::path truth;  ///< trajectory file; empty: what lies beside the scans, if anything
+};
+
+/// Seconds spent in each part of a run by this process.
+struct MapTimes {
+  double reading = 0.0;      ///< waiting for scans
+  double odometry = 0.0;     ///< keyframes included
+  double loops = 0.0;
+  double solving = 0.0;
+  double products = 0.0;
+  double whole = 0.0;
+};
+
+/// What a run came to.
+struct MapSummary {
+  std::size_t scans = 0;
+  std::size_t damaged = 0;
+  std::size_t recovered = 0;
+  std::size_t keyframes = 0;
+  std::size_t candidates = 0;
+  std::size_t loops = 0;       ///< accepted
+  std::size_t components = 0;
+  double path_m = 0.0;
+  double duration_s = 0.0;     ///< from the first to the last stamp
+  std::string compensation;
+  std::optional<AbsoluteError> absolute;
+  std::optional<AbsoluteError> absolute_odometry;  ///< before the loops
+  std::optional<KittiError> kitti;
+  std::vector<std::string> damage;  ///< a line for each damaged scan
+};
+
+struct MapOutcome {
+  MapSummary summary;
+  MapTimes times;
+};
+
+/// From a log to a whole run folder. Throws InputError (the partial run stays) or Interrupted (it can be resumed).
+MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options);
+
+/// summary.json: no times, so that the same run gives the same bytes. timings.json: the times.
+void write_summary(const RunFolder& folder, const MapSummary& summary, const MapTimes& times);
+
+/// report.html: trajectory, loops, drift, timing.
+void write_map_report(const RunFolder& folder, const Mapper& mapper, const SolvedMap& map, const MapSummary& summary,
+                      const MapTimes& times, const std::vector<Pose>& truth);
+
+/// The table at the end, for people.
+std::string closing_table(const MapOutcome& outcome);
+
+}  // namespace loopmark::app

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/core/files.hpp"
+#include "loopmark/odometry/odometry.hpp"
+#include "state_bytes.hpp"
+
+namespace loopmark {
+namespace {
+
+void write_pose(ByteWriter& writer, const Pose& pose) { writer.raw(pose.matrix().data(), 16); }
+
+Pose read_pose(ByteReader& reader) {
+  Pose pose;
+  reader.raw(pose.matrix().data(), 16);
+  return pose;
+}
+
+void write_points(ByteWriter& writer, const std::vector<Eigen::Vector3f>& points) {
+  writer.value(points.size());
+  for (const Eigen::Vector3f& point : points) {
+    writer.raw(point.data(), 3);
+  }
+}
+
+std::vector<Eigen::Vector3f> read_points(ByteReader& reader) {
+  std::vector<Eigen::Vector3f> points;
+  for (auto left = reader.value<std::size_t>(); left > 0; --left) {
+    reader.raw(points.emplace_back().data(), 3);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string Odometry::state() const {
+  ByteWriter writer;
+  write_pose(writer, origin_);
+  writer.value(committed_);
+  writer.vector(std::vector<double>(deviations_.begin(), deviations_.end()));
+  writer.raw(swept_at_.data(), 3);
+  writer.value(last_.has_value());
+  if (last_) {
+    writer.value(last_->index);
+    writer.value(last_->stamp_s);
+    write_pose(writer, last_->T_map_lidar);
+    writer.raw(last_->velocity.data(), 6);
+    write_points(writer, last_->sample.points);
+    writer.vector(last_->sample.time_offset_s);
+    writer.text(map_->to_bytes());
+    writer.text(coarse_->to_bytes());
+  }
+  ByteWriter sealed;
+  sealed.value(crc32(writer.bytes()));
+  sealed.text(writer.bytes());
+  return sealed.bytes();
+}
+
+void Odometry::set_state(const std::string& bytes) {
+  ByteReader seal(bytes);
+  const auto checksum = seal.value<std::uint32_t>();
+  const std::string content = seal.text();
+  if (crc32(content) != checksum) {
+    throw InputError("the saved state of the odometry is damaged");
+  }
+  ByteReader reader(content);
+  restart(read_pose(reader));
+  committed_ = reader.value<std::size_t>();
+  const auto deviations = reader.vector<double>();
+  deviations_.assign(deviations.begin(), deviations.end());
+  reader.raw(swept_at_.data(), 3);
+  if (reader.value<bool>()) {
+    TrackedScan& last = last_.emplace();
+    last.index = reader.value<std::size_t>();
+    last.stamp_s = reader.value<double>();
+    last.T_map_lidar = read_pose(reader);
+    reader.raw(last.velocity.data(), 6);
+    last.sample.points = read_points(reader);
+    last.sample.time_offset_s = reader.vector<float>();
+    map_ = LocalMap::from_bytes(reader.text());
+    coarse_ = LocalMap::from_bytes(reader.text());
+  }
+}
+
+}  // namespace loopmark

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Plain memory to bytes and back, for states that this very program reads again.
+#pragma once
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "loopmark/core/error.hpp"
+
+namespace loopmark {
+
+class ByteWriter {
+ public:
+  template <class T>
+  void raw(const T* values, std::size_t count) {
+    bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+  }
+  template <class T>
+  void value(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    raw(&value, 1);
+  }
+  template <class T>
+  void vector(const std::vector<T>& values) {
+    value(values.size());
+    raw(values.data(), values.size());
+  }
+  void text(const std::string& text) {
+    value(text.size());
+    raw(text.data(), text.size());
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(const std::string& bytes) : bytes_(bytes) {}
+
+  template <class T>
+  void raw(T* values, std::size_t count) {
+    if (count > (bytes_.size() - at_) / sizeof(T)) {
+      throw InputError("the saved state is cut off");
+    }
+    std::memcpy(static_cast<void*>(values), bytes_.data() + at_, count * sizeof(T));
+    at_ += count * sizeof(T);
+  }
+  template <class T>
+  T value() {
+    T result;
+    raw(&result, 1);
+    return result;
+  }
+  template <class T>
+  std::vector<T> vector() {
+    const auto count = value<std::size_t>();
+    if (count > (bytes_.size() - at_) / sizeof(T)) {
+      throw InputError("the saved state is cut off");
+    }
+    std::vector<T> result(count);
+    raw(result.data(), count);
+    return result;
+  }
+  std::string text() {
+    const std::vector<char> letters = vector<char>();
+    return {letters.begin(), letters.end()};
+  }
+
+ private:
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace loopmark

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a run leaves behind for people and programs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "loopmark/occupancy/occupancy_map.hpp"
+#include "loopmark/slam/mapper.hpp"
+
+namespace loopmark {
+
+/// trajectory.tum, trajectory.kitti, covariances.csv, loops.csv, pose_graph.g2o.
+void write_trajectory_products(const RunFolder& folder, const std::vector<ScanRecord>& scans,
+                               const std::vector<LoopRecord>& loops, const SolvedMap& map);
+
+/// map.bt, map.ot: the occupancy of the first component.
+OccupancyStatistics write_occupancy(const RunFolder& folder, const SolvedMap& map, const OccupancyOptions& options);
+
+/// cloud.ply: the points of the first component, one a voxel, coloured by height. component_1.ply, ...: those of
+/// pieces that found no place in it.
+void write_clouds(const RunFolder& folder, const SolvedMap& map, double voxel_m);
+
+/// map.simplemap and map.3Dscene for MRPT's tools: the first component.
+void write_mrpt_products(const RunFolder& folder, const std::vector<ScanRecord>& scans,
+                         const std::vector<LoopRecord>& loops, const SolvedMap& map);
+
+/// What stands in manifest.json besides the outputs' hashes.
+struct Manifest {
+  std::vector<std::string> arguments;
+  std::string log;             ///< path of the input
+  std::string input_sha256;    ///< over the number of points and the CRC-32 of every scan as it was read
+  std::string started;         ///< ISO 8601, UTC
+  double seconds = 0.0;        ///< of this process
+  int exit_status = 0;
+};
+
+/// manifest.json: version, arguments, times, exit status, and the SHA-256 of every file of the run but itself.
+void write_manifest(const RunFolder& folder, const Manifest& manifest);
+
+}  // namespace loopmark

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "loopmark/core/point_cloud.hpp"
+#include "loopmark/registration/engine.hpp"
+
+namespace loopmark {
+
+/// What mapping needs of global registration. Keyframes are handled as bytes, which lie in the run folder: at most
+/// 1 MB each. Calls come from several threads at once.
+class Registrar {
+ public:
+  virtual ~Registrar() = default;
+
+  /// Everything registration needs of a (deskewed) scan.
+  virtual std::string prepare(const PointCloud& cloud) const = 0;
+
+  /// Where the source stands in the target, with no initial guess.
+  virtual RegistrationResult align(const std::string& source, const std::string& target) const = 0;
+};
+
+}  // namespace loopmark

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace loopmark {
+
+/// The folder of a run. While it is made it is called RUN.partial; when it is whole it is renamed to RUN.
+class RunFolder {
+ public:
+  /// A new run. Throws InputError when RUN or RUN.partial is there, or cannot be made.
+  static RunFolder create(const std::filesystem::path& run);
+
+  /// A run that was interrupted; `run` with or without ".partial". Throws InputError when there is none, and says so
+  /// when the run is already whole.
+  static RunFolder resume(const std::filesystem::path& run);
+
+  /// A run that is whole. Throws InputError when it is not there or not whole.
+  static RunFolder open(const std::filesystem::path& run);
+
+  const std::filesystem::path& path() const { return path_; }  ///< where it is now
+  const std::filesystem::path& name() const { return name_; }  ///< where it will be
+  std::filesystem::path operator/(const std::string& file) const { return path_ / file; }
+
+  std::filesystem::path scan_records() const { return path_ / "records" / "scans.rec"; }
+  std::filesystem::path loop_records() const { return path_ / "records" / "loops.rec"; }
+  /// keyframes/000012.pcd: the points; .prepared: what registration needs of them.
+  std::filesystem::path keyframe(std::size_t number, const std::string& ending) const;
+
+  /// Gives the run its name.
+  void finish();
+
+ private:
+  RunFolder(std::filesystem::path path, std::filesystem::path name);
+
+  std::filesystem::path path_;
+  std::filesystem::path name_;
+};
+
+}  // namespace loopmark

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// From records to a map's poses: needs no scan, so that it can be repeated in seconds with other loops.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "loopmark/pose_graph/pose_graph.hpp"
+#include "loopmark/slam/options.hpp"
+#include "loopmark/slam/records.hpp"
+
+namespace loopmark {
+
+/// A scan that stands for its surroundings.
+struct Keyframe {
+  std::size_t number = 0;   ///< place among the keyframes; its files are named by it
+  std::size_t scan = 0;
+  std::size_t piece = 0;
+  Pose T_piece_lidar = Pose::Identity();
+  Matrix6d covariance = Matrix6d::Zero();  ///< of xi in T_piece_lidar * exp(xi), against the local map
+  double path_m = 0.0;      ///< driven since the start of the log
+};
+
+/// The keyframes that the scan records name, in order.
+std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans);
+
+/// What became of a loop candidate.
+struct LoopVerdict {
+  bool accepted = false;
+  std::string reason;        ///< why not
+  double weight = 0.0;       ///< in the solved graph
+  double chi2 = 0.0;         ///< of its residual in the solved graph; 0 where it did not take part
+};
+
+struct SolvedMap {
+  std::vector<Keyframe> keyframes;
+  std::vector<Pose> T_map_keyframe;
+  std::vector<Pose> T_map_scan;             ///< one for every scan of the log, in order
+  std::vector<Matrix6d> covariance;         ///< of xi in exp(xi) * T_map_scan, for every scan
+  std::vector<std::size_t> component;       ///< of every scan; 0 is the one that holds the first scan
+  std::size_t components = 0;
+  std::vector<LoopVerdict> loops;           ///< one for each loop record
+  PoseGraph graph;
+  PoseGraphSolution solution;
+};
+
+/// Odometry edges within the pieces, the loops that registration is sure of, and the robust solution.
+/// `scans`: one for every scan of the log, in order; at least one keyframe.
+SolvedMap solve_map(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops,
+                    const SlamOptions& options, const PoseGraphOptions& graph_options);
+
+}  // namespace loopmark

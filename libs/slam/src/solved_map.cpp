@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/slam/solved_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace loopmark {
+namespace {
+
+constexpr std::size_t kNoEdge = static_cast<std::size_t>(-1);
+
+/// Covariance of the motion between two keyframes: the later one's alignment, and drift over the distance.
+Matrix6d odometry_covariance(const Keyframe& from, const Keyframe& to, const SlamOptions& options) {
+  const double distance = to.path_m - from.path_m;
+  const double metres = options.drift_m_per_m * distance;
+  const double radians = options.drift_deg_per_m * distance * M_PI / 180.0;
+  Vector6d drift;
+  drift << Eigen::Vector3d::Constant(metres * metres), Eigen::Vector3d::Constant(radians * radians);
+  const Matrix6d in_lidar = to.covariance + Matrix6d(drift.asDiagonal());
+  const Matrix6d A = adjoint(from.T_piece_lidar.inverse() * to.T_piece_lidar);
+  const Matrix6d in_from = A * in_lidar * A.transpose();
+  return 0.5 * (in_from + in_from.transpose());
+}
+
+void add_odometry(SolvedMap& map, const SlamOptions& options) {
+  for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
+    const Keyframe& to = map.keyframes[i];
+    map.graph.T_map_node.push_back(to.T_piece_lidar);
+    if (i == 0 || map.keyframes[i - 1].piece != to.piece) {
+      continue;
+    }
+    const Keyframe& from = map.keyframes[i - 1];
+    map.graph.edges.push_back(
+        {i - 1, i, from.T_piece_lidar.inverse() * to.T_piece_lidar,
+         information_from_covariance(odometry_covariance(from, to, options), options.floor_m, options.floor_deg),
+         EdgeKind::kOdometry});
+  }
+}
+
+/// The loops that may take part; returns for each record its edge, or kNoEdge with the reason in its verdict.
+std::vector<std::size_t> add_loops(SolvedMap& map, const std::vector<LoopRecord>& loops, const SlamOptions& options) {
+  std::vector<std::size_t> edge_of(loops.size(), kNoEdge);
+  map.loops.resize(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const LoopRecord& loop = loops[i];
+    if (!loop.answered) {
+      map.loops[i].reason = loop.reason;
+    } else if (loop.p_correct < options.min_loop_p) {
+      map.loops[i].reason = "P(correct) below min_loop_p";
+    } else {
+      edge_of[i] = map.graph.edges.size();
+      map.graph.edges.push_back({loop.target, loop.source, loop.T_target_source,
+                                 information_from_covariance(loop.covariance, options.floor_m, options.floor_deg),
+                                 EdgeKind::kLoop});
+    }
+  }
+  return edge_of;
+}
+
+void judge_loops(SolvedMap& map, const std::vector<std::size_t>& edge_of) {
+  for (std::size_t i = 0; i < edge_of.size(); ++i) {
+    if (edge_of[i] == kNoEdge) {
+      continue;
+    }
+    const EdgeReport& report = map.solution.edges[edge_of[i]];
+    LoopVerdict& verdict = map.loops[i];
+    verdict.accepted = report.verdict == EdgeVerdict::kAccepted;
+    verdict.reason = verdict.accepted ? "" : to_string(report.verdict);
+    verdict.weight = report.weight;
+    verdict.chi2 = report.chi2;
+  }
+}
+
+/// What the solution has moved a scan by: between the corrections of the keyframes before and behind it.
+Pose correction(const SolvedMap& map, const std::vector<ScanRecord>& scans, std::size_t before, const ScanRecord& scan) {
+  const auto of_keyframe = [&](std::size_t k) {
+    return map.T_map_keyframe[k] * map.keyframes[k].T_piece_lidar.inverse();
+  };
+  const Pose first = of_keyframe(before);
+  if (before + 1 == map.keyframes.size() || map.keyframes[before + 1].piece != scan.piece) {
+    return first;
+  }
+  const double begin = scans[map.keyframes[before].scan].stamp_s;
+  const double end = scans[map.keyframes[before + 1].scan].stamp_s;
+  const double ratio = end > begin ? std::clamp((scan.stamp_s - begin) / (end - begin), 0.0, 1.0) : 0.0;
+  return interpolate(first, of_keyframe(before + 1), ratio);
+}
+
+/// Damaged scans get poses between their neighbours'.
+void fill_gaps(SolvedMap& map, const std::vector<ScanRecord>& scans) {
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (scans[i].state != ScanState::kDamaged) {
+      continue;
+    }
+    const auto good = [&](std::size_t k) { return scans[k].state != ScanState::kDamaged; };
+    std::size_t before = i;
+    std::size_t behind = i;
+    while (before > 0 && !good(before)) {
+      --before;
+    }
+    while (behind + 1 < scans.size() && !good(behind)) {
+      ++behind;
+    }
+    before = good(before) ? before : behind;
+    behind = good(behind) && map.component[behind] == map.component[before] ? behind : before;
+    const double span = scans[behind].stamp_s - scans[before].stamp_s;
+    const double ratio = span > 0.0 ? (scans[i].stamp_s - scans[before].stamp_s) / span : 0.0;
+    map.T_map_scan[i] = interpolate(map.T_map_scan[before], map.T_map_scan[behind], std::clamp(ratio, 0.0, 1.0));
+    map.covariance[i] = map.covariance[before] + Matrix6d::Identity();
+    map.component[i] = map.component[before];
+  }
+}
+
+void place_scans(SolvedMap& map, const std::vector<ScanRecord>& scans) {
+  const std::vector<Matrix6d> marginals = marginal_covariances(map.graph, map.solution);
+  map.T_map_scan.assign(scans.size(), Pose::Identity());
+  map.covariance.assign(scans.size(), Matrix6d::Identity());
+  map.component.assign(scans.size(), 0);
+  std::size_t keyframe = 0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (scans[i].state == ScanState::kDamaged) {
+      continue;
+    }
+    keyframe = scans[i].keyframe ? *scans[i].keyframe : keyframe;
+    map.T_map_scan[i] = correction(map, scans, keyframe, scans[i]) * scans[i].T_piece_lidar;
+    map.component[i] = map.solution.component_of[keyframe];
+    map.covariance[i] = marginals[keyframe];
+    if (!scans[i].keyframe) {
+      const Matrix6d A = adjoint(map.T_map_scan[i]);
+      map.covariance[i] += A * scans[i].covariance * A.transpose();
+    }
+  }
+  fill_gaps(map, scans);
+}
+
+}  // namespace
+
+std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans) {
+  std::vector<Keyframe> keyframes;
+  double path_m = 0.0;
+  const ScanRecord* last = nullptr;
+  for (const ScanRecord& scan : scans) {
+    if (scan.state == ScanState::kDamaged) {
+      continue;
+    }
+    if (last != nullptr && last->piece == scan.piece) {
+      path_m += (last->T_piece_lidar.inverse() * scan.T_piece_lidar).translation().norm();
+    }
+    last = &scan;
+    if (scan.keyframe) {
+      keyframes.push_back({*scan.keyframe, scan.scan, scan.piece, scan.T_piece_lidar, scan.covariance, path_m});
+    }
+  }
+  return keyframes;
+}
+
+SolvedMap solve_map(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops,
+                    const SlamOptions& options, const PoseGraphOptions& graph_options) {
+  SolvedMap map;
+  map.keyframes = keyframes_of(scans);
+  add_odometry(map, options);
+  const std::vector<std::size_t> edge_of = add_loops(map, loops, options);
+  map.graph.anchors = {0};
+  map.solution = optimize(map.graph, graph_options);
+  map.T_map_keyframe = map.solution.T_map_node;
+  map.components = map.solution.components.size();
+  judge_loops(map, edge_of);
+  place_scans(map, scans);
+  return map;
+}
+
+}  // namespace loopmark

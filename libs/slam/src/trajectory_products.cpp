@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <set>
+
+#include "loopmark/core/files.hpp"
+#include "loopmark/io/trajectory.hpp"
+#include "loopmark/pose_graph/g2o.hpp"
+#include "loopmark/slam/products.hpp"
+
+namespace loopmark {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    result += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return result + "\"";
+}
+
+std::string covariances_csv(const std::vector<ScanRecord>& scans, const SolvedMap& map) {
+  static constexpr const char* kAxes[] = {"x", "y", "z", "rx", "ry", "rz"};
+  std::string text = "scan,stamp_s,component,state,tracking,inlier_share,residual_m,degenerate_directions";
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      text += std::string(",cov_") + kAxes[row] + "_" + kAxes[column];
+    }
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    char stamp[48];
+    std::snprintf(stamp, sizeof stamp, "%.6f", scans[i].stamp_s);
+    text += std::to_string(scans[i].scan) + "," + stamp + "," + std::to_string(map.component[i]) + "," +
+            name(scans[i].state) + "," + name(scans[i].tracking) + "," + number(scans[i].inlier_share) + "," +
+            number(scans[i].residual_m) + "," + std::to_string(scans[i].degenerate);
+    for (int row = 0; row < 6; ++row) {
+      for (int column = row; column < 6; ++column) {
+        text += "," + number(map.covariance[i](row, column));
+      }
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+/// All evidence names that occur, in alphabetical order.
+std::set<std::string> evidence_names(const std::vector<LoopRecord>& loops) {
+  std::set<std::string> names;
+  for (const LoopRecord& loop : loops) {
+    for (const auto& [word, value] : loop.evidence) {
+      names.insert(word);
+    }
+  }
+  return names;
+}
+
+std::string loops_csv(const std::vector<LoopRecord>& loops, const SolvedMap& map) {
+  const std::set<std::string> names = evidence_names(loops);
+  std::string text = "source_scan,target_scan,source_keyframe,target_keyframe,origin,accepted,reason,p_correct,"
+                     "x,y,z,roll_deg,pitch_deg,yaw_deg,weight,chi2";
+  for (const std::string& evidence : names) {
+    text += "," + evidence;
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const LoopRecord& loop = loops[i];
+    const Eigen::Vector3d t = loop.T_target_source.translation();
+    const Eigen::Vector3d rpy = euler_degrees(loop.T_target_source.linear());
+    text += std::to_string(map.keyframes[loop.source].scan) + "," + std::to_string(map.keyframes[loop.target].scan) + "," +
+            std::to_string(loop.source) + "," + std::to_string(loop.target) + "," + loop.origin + "," +
+            (map.loops[i].accepted ? "1" : "0") + "," + quoted(map.loops[i].reason) + "," + number(loop.p_correct);
+    for (const double value : {t.x(), t.y(), t.z(), rpy.x(), rpy.y(), rpy.z(), map.loops[i].weight, map.loops[i].chi2}) {
+      text += "," + number(value);
+    }
+    for (const std::string& evidence : names) {
+      text += ",";
+      for (const auto& [word, value] : loop.evidence) {
+        text += word == evidence ? number(value) : "";
+      }
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_trajectory_products(const RunFolder& folder, const std::vector<ScanRecord>& scans,
+                               const std::vector<LoopRecord>& loops, const SolvedMap& map) {
+  std::vector<double> stamps_s;
+  for (const ScanRecord& scan : scans) {
+    stamps_s.push_back(scan.stamp_s);
+  }
+  write_tum(folder / "trajectory.tum", stamps_s, map.T_map_scan);
+  write_kitti(folder / "trajectory.kitti", map.T_map_scan);
+  write_file_atomically(folder / "covariances.csv", covariances_csv(scans, map));
+  write_file_atomically(folder / "loops.csv", loops_csv(loops, map));
+  PoseGraph graph = map.graph;
+  graph.T_map_node = map.T_map_keyframe;
+  write_g2o(folder / "pose_graph.g2o", graph);
+}
+
+}  // namespace loopmark
