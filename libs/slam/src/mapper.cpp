@@ -223,6 +223,7 @@ void Mapper::add_damaged(std::size_t scan, double stamp_s, const std::string& pr
 std::vector<std::vector<LoopRecord>> Mapper::candidates() const {
   std::vector<std::vector<LoopRecord>> result(keyframes_.size());
   PlaceIndex index;
+  double looked_up_m = -options_.slam.loop_every_m;
   for (std::size_t k = 0; k < keyframes_.size(); ++k) {
     std::set<std::size_t> tried;
     const auto add = [&](std::size_t target, const char* origin) {
@@ -244,7 +245,9 @@ std::vector<std::vector<LoopRecord>> Mapper::candidates() const {
       return keyframes_[earlier].piece != keyframes_[k].piece ||
              keyframes_[k].path_m - keyframes_[earlier].path_m > options_.slam.loop_gap_m;
     };
-    for (const PlaceMatch& match : index.query(signature, options_.slam.loop_candidates, apart)) {
+    const bool due = keyframes_[k].path_m - looked_up_m >= options_.slam.loop_every_m;
+    looked_up_m = due ? keyframes_[k].path_m : looked_up_m;
+    for (const PlaceMatch& match : index.query(signature, due ? options_.slam.loop_candidates : 0, apart)) {
       add(match.id, "place");
     }
     index.add(k, signature);

@@ -15,7 +15,8 @@ struct SlamOptions {
   double cloud_voxel_m = 0.2;         ///< and of the cloud of the whole map
   bool close_loops = true;            ///< look for places seen before
   std::size_t loop_candidates = 3;    ///< places tried for each keyframe
-  double loop_gap_m = 25.0;           ///< a place passed within this distance of driving is no loop
+  double loop_every_m = 5.0;          ///< places are looked up once in this distance
+  double loop_gap_m = 40.0;           ///< a place passed within this distance of driving is no loop
   double min_loop_p = 0.9;            ///< a loop below this P(correct) is kept as evidence but not used
   std::size_t recovery_keyframes = 3; ///< latest keyframes that a lost scan is registered to
   double drift_m_per_m = 0.005;       ///< odometry's drift as believed by the pose graph: metres a metre
@@ -35,6 +36,7 @@ void describe(Visitor& v, SlamOptions& o) {
   v.field("cloud_voxel_m", o.cloud_voxel_m, "and of the cloud of the whole map, metres");
   v.field("close_loops", o.close_loops, "look for places seen before");
   v.field("loop_candidates", o.loop_candidates, "places tried for each keyframe");
+  v.field("loop_every_m", o.loop_every_m, "places are looked up once in this distance, metres");
   v.field("loop_gap_m", o.loop_gap_m, "a place passed within this distance of driving is no loop, metres");
   v.field("min_loop_p", o.min_loop_p, "a loop below this P(correct) is kept as evidence but not used");
   v.field("recovery_keyframes", o.recovery_keyframes, "latest keyframes that a lost scan is registered to");
