@@ -51,7 +51,7 @@ std::vector<std::size_t> add_loops(SolvedMap& map, const std::vector<LoopRecord>
     } else {
       edge_of[i] = map.graph.edges.size();
       map.graph.edges.push_back({loop.target, loop.source, loop.T_target_source,
-                                 information_from_covariance(loop.covariance, options.floor_m, options.floor_deg),
+                                 information_from_covariance(loop.covariance, options.loop_floor_m, options.loop_floor_deg),
                                  EdgeKind::kLoop});
     }
   }

@@ -21,8 +21,10 @@ struct SlamOptions {
   std::size_t recovery_keyframes = 3; ///< latest keyframes that a lost scan is registered to
   double drift_m_per_m = 0.005;       ///< odometry's drift as believed by the pose graph: metres a metre
   double drift_deg_per_m = 0.02;      ///< and degrees a metre
-  double floor_m = 0.02;              ///< no constraint is believed better than this
+  double floor_m = 0.02;              ///< no odometry between keyframes is believed better than this
   double floor_deg = 0.05;            ///< and this
+  double loop_floor_m = 0.1;          ///< no loop is believed better than this
+  double loop_floor_deg = 0.3;        ///< and this
   std::size_t max_bad_scans = 10;     ///< more damaged scans end the run
   Compensation compensation = Compensation::kUnknown;  ///< unknown: measured
 };
@@ -42,8 +44,10 @@ void describe(Visitor& v, SlamOptions& o) {
   v.field("recovery_keyframes", o.recovery_keyframes, "latest keyframes that a lost scan is registered to");
   v.field("drift_m_per_m", o.drift_m_per_m, "odometry's drift as believed by the pose graph, metres a metre");
   v.field("drift_deg_per_m", o.drift_deg_per_m, "and degrees a metre");
-  v.field("floor_m", o.floor_m, "no constraint is believed better than this, metres");
+  v.field("floor_m", o.floor_m, "no odometry between keyframes is believed better than this, metres");
   v.field("floor_deg", o.floor_deg, "and this, degrees");
+  v.field("loop_floor_m", o.loop_floor_m, "no loop is believed better than this, metres");
+  v.field("loop_floor_deg", o.loop_floor_deg, "and this, degrees");
   v.field("max_bad_scans", o.max_bad_scans, "more damaged scans end the run");
   v.choice("compensation", o.compensation,
            {{"measure", Compensation::kUnknown},
