@@ -12,6 +12,7 @@
 #include "loopmark/registration/engine_options.hpp"
 #include "loopmark/simulation/options.hpp"
 #include "loopmark/slam/options.hpp"
+#include "loopmark/slam/relocalization_options.hpp"
 
 namespace loopmark::app {
 
@@ -24,6 +25,7 @@ struct AppOptions {
   SlamOptions slam;
   PoseGraphOptions pose_graph;
   OccupancyOptions occupancy;
+  RelocalizationOptions relocalization;
   BalanceOptions balance;
   simulation::SimulationOptions simulation;
 };
@@ -37,6 +39,7 @@ void describe(Visitor& v, AppOptions& o) {
   v.section("slam", o.slam, "keyframes, loops and the map");
   v.section("pose_graph", o.pose_graph, "robust solution of the pose graph");
   v.section("occupancy", o.occupancy, "OctoMap");
+  v.section("relocalization", o.relocalization, "finding a place in a map");
   v.section("balance", o.balance, "choice of balanced sets of frame pairs");
   v.section("simulation", o.simulation, "simulated towns, drives and pairs");
 }

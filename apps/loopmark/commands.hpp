@@ -12,6 +12,7 @@ Action set_up_balance(CLI::App& command, const Globals& globals);
 Action set_up_doctor(CLI::App& command, const Globals& globals);
 Action set_up_evaluate(CLI::App& command, const Globals& globals);
 Action set_up_map(CLI::App& command, const Globals& globals);
+Action set_up_relocalize(CLI::App& command, const Globals& globals);
 Action set_up_simulate(CLI::App& command, const Globals& globals);
 
 }  // namespace loopmark::app

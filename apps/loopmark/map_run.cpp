@@ -106,19 +106,6 @@ void close_loops(Mapper& mapper, MapTimes& times) {
   times.loops = watch.seconds();
 }
 
-Compensation compensation_of(const DriveLog& log, const SlamOptions& options, bool timed) {
-  if (options.compensation != Compensation::kUnknown) {
-    return options.compensation;
-  }
-  if (log.info().motion_compensated.value_or(true)) {
-    return Compensation::kCompensated;
-  }
-  if (timed) {
-    return Compensation::kRawGivenTimes;
-  }
-  return log.info().sweep && !log.info().sweep->clockwise ? Compensation::kRawCounterClockwise : Compensation::kRawClockwise;
-}
-
 std::string name(Compensation compensation) {
   switch (compensation) {
     case Compensation::kCompensated:
@@ -196,6 +183,19 @@ std::string utc_now() {
 
 }  // namespace
 
+Compensation compensation_of(const DriveLog& log, const SlamOptions& options) {
+  if (options.compensation != Compensation::kUnknown) {
+    return options.compensation;
+  }
+  if (log.info().motion_compensated.value_or(true)) {
+    return Compensation::kCompensated;
+  }
+  if (points_have_times(log)) {
+    return Compensation::kRawGivenTimes;
+  }
+  return log.info().sweep && !log.info().sweep->clockwise ? Compensation::kRawCounterClockwise : Compensation::kRawClockwise;
+}
+
 MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options) {
   const Stopwatch whole;
   const std::string started = utc_now();
@@ -203,7 +203,7 @@ MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& option
   MapTimes& times = outcome.times;
   const std::unique_ptr<DriveLog> log = open_log(job.log, options.log);
   const std::vector<Pose> truth = truth_of(*log, job.truth);
-  const Compensation compensation = compensation_of(*log, options.slam, points_have_times(*log));
+  const Compensation compensation = compensation_of(*log, options.slam);
 
   Mapper mapper(folder, {options.odometry, options.slam, options.pose_graph}, engine_registrar(options.registration),
                 compensation, log->info().sweep.value_or(SweepModel{}));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app_options.hpp"
+#include "loopmark/io/drive_log.hpp"
 #include "loopmark/slam/mapper.hpp"
 #include "loopmark/slam/trajectory_metrics.hpp"
 
@@ -51,6 +52,9 @@ struct MapOutcome {
   MapSummary summary;
   MapTimes times;
 };
+
+/// Whether and how the log's scans are deskewed: as the options say, else as the log says or its points show.
+Compensation compensation_of(const DriveLog& log, const SlamOptions& options);
 
 /// From a log to a whole run folder. Throws InputError (the partial run stays) or Interrupted (it can be resumed).
 MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options);

@@ -27,8 +27,10 @@ PointCloud read_keyframe_cloud(const RunFolder& folder, std::size_t number) {
   return read_point_file(folder.keyframe(number, "pcd")).cloud;
 }
 
+PlaceSignature place_of(const PointCloud& cloud) { return place_signature(levelled(cloud)); }
+
 void write_keyframe_place(const RunFolder& folder, std::size_t number, const PointCloud& cloud) {
-  write_file_atomically(folder.keyframe(number, "place"), place_signature(levelled(cloud)).to_bytes());
+  write_file_atomically(folder.keyframe(number, "place"), place_of(cloud).to_bytes());
 }
 
 PlaceSignature read_keyframe_place(const RunFolder& folder, std::size_t number) {

@@ -12,6 +12,9 @@ namespace loopmark {
 void write_keyframe_cloud(const RunFolder& folder, std::size_t number, const PointCloud& cloud);
 PointCloud read_keyframe_cloud(const RunFolder& folder, std::size_t number);
 
+/// The place signature of a cloud thinned as keyframes are; sensor's frame.
+PlaceSignature place_of(const PointCloud& cloud);
+
 /// The place signature of a keyframe's cloud.
 void write_keyframe_place(const RunFolder& folder, std::size_t number, const PointCloud& cloud);
 PlaceSignature read_keyframe_place(const RunFolder& folder, std::size_t number);

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// What relocalization of a log gave, as files and numbers.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "loopmark/slam/relocalizer.hpp"
+
+namespace loopmark {
+
+struct RelocalizationSummary {
+  std::size_t scans = 0;
+  std::size_t answered = 0;
+  double first_answer_s = -1.0;  ///< from the first scan to the first answer; -1: there was none
+  std::size_t losses = 0;        ///< times a place that was known was lost
+  std::size_t recoveries = 0;    ///< times it was found again
+  double seconds = 0.0;          ///< of computing
+
+  // Where the truth is known:
+  std::size_t judged = 0;  ///< answers that could be compared
+  std::size_t wrong = 0;   ///< of those, further than 0.6 m or 5 deg from the truth
+  double median_error_m = 0.0;
+};
+
+RelocalizationSummary summarize(const std::vector<RelocalizedScan>& scans);
+
+/// Compares answers with the truth through the nearest scan of the map, so that the map's drift elsewhere does not
+/// count: T_map_near^-1 * answer against the same of the true poses. `T_map_scan` and `true_map` are the map's scans;
+/// `true_query` has one pose for each scan of the log, in the same world.
+void judge(const std::vector<RelocalizedScan>& scans, const std::vector<Pose>& T_map_scan,
+           const std::vector<Pose>& true_map, const std::vector<Pose>& true_query, RelocalizationSummary& summary);
+
+/// relocalization.csv (a row a scan), trajectory.tum (answers only) and summary.json in `folder`.
+void write_relocalization(const std::filesystem::path& folder, const std::vector<RelocalizedScan>& scans,
+                          const RelocalizationSummary& summary);
+
+}  // namespace loopmark

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Finds the sensor in a map with no hint, tracks it there, and notices when it is lost.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "loopmark/odometry/odometry.hpp"
+#include "loopmark/slam/place_beliefs.hpp"
+
+namespace loopmark {
+
+/// The map as a relocalizer sees it. Thread-compatible; answers must not depend on what was asked before.
+class PlaceMap {
+ public:
+  virtual ~PlaceMap() = default;
+
+  /// Registers a scan (deskewed points, sensor's frame) to the places of the map that look like it: every distinct
+  /// answer with its own probability, in the map's frame.
+  virtual std::vector<PlaceAnswer> search(const PointCloud& scan, std::size_t places) const = 0;
+
+  /// The map's points within `radius` of a position, map frame.
+  virtual std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const = 0;
+};
+
+enum class RelocalizationState {
+  kSearching,  ///< the place is not known yet
+  kTracking,   ///< the pose follows the map
+  kLost        ///< the place was known until this scan, which does not fit any more
+};
+const char* name(RelocalizationState state);
+
+struct RelocalizedScan {
+  std::size_t scan = 0;
+  double stamp_s = 0.0;
+  RelocalizationState state = RelocalizationState::kSearching;
+  bool answered = false;  ///< T_map_lidar is given
+  Pose T_map_lidar = Pose::Identity();
+  Matrix6d covariance = Matrix6d::Identity();  ///< of xi in exp(xi) * T_map_lidar
+  double p_correct = 0.0;                      ///< of the place, over all candidates and "none of these"
+  double inlier_share = 0.0;                   ///< while tracking: keypoints that fit the map
+  std::string reason;                          ///< why there is no answer, or why it was lost
+};
+
+/// Fed scan by scan.
+class Relocalizer {
+ public:
+  Relocalizer(std::shared_ptr<const PlaceMap> map, const RelocalizationOptions& options,
+              const OdometryOptions& odometry_options = {}, Compensation compensation = Compensation::kCompensated,
+              const SweepModel& sweep = {});
+  ~Relocalizer();
+
+  RelocalizedScan add(const Scan& scan);
+
+ private:
+  struct State;
+  void search(const Scan& scan, const TrackedScan& tracked, RelocalizedScan& answer);
+  void track(const TrackedScan& tracked, RelocalizedScan& answer);
+  void lose(const std::string& reason, RelocalizedScan& answer);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace loopmark

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "loopmark/slam/records.hpp"
+#include "loopmark/slam/run_folder.hpp"
+
+namespace loopmark {
+
+/// What a run remembers, in order. Throws InputError when a record is damaged.
+std::vector<ScanRecord> read_scan_records(const RunFolder& run);
+std::vector<LoopRecord> read_loop_records(const RunFolder& run);
+
+}  // namespace loopmark

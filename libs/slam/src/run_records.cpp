@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/slam/run_records.hpp"
+
+#include "loopmark/core/record_file.hpp"
+
+namespace loopmark {
+
+std::vector<ScanRecord> read_scan_records(const RunFolder& run) {
+  std::vector<ScanRecord> records;
+  for (const std::string& line : read_records(run.scan_records()).lines) {
+    records.push_back(scan_from_line(line));
+  }
+  return records;
+}
+
+std::vector<LoopRecord> read_loop_records(const RunFolder& run) {
+  std::vector<LoopRecord> records;
+  for (const std::string& line : read_records(run.loop_records()).lines) {
+    records.push_back(loop_from_line(line));
+  }
+  return records;
+}
+
+}  // namespace loopmark

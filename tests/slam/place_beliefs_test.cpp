@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/slam/place_beliefs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace loopmark {
+namespace {
+
+PlaceAnswer answer(double x, double p) { return {pose_from_yaw(0.1, {x, 2.0, 0.0}), Matrix6d::Identity(), p}; }
+
+Pose moved(double x) { return pose_from_yaw(0.0, {x, 0.0, 0.0}); }
+
+TEST(PlaceBeliefs, OneAnswerKeepsItsProbability) {
+  PlaceBeliefs beliefs({});
+  EXPECT_FALSE(beliefs.best());
+  beliefs.add({answer(10.0, 0.8)}, moved(0.0));
+  ASSERT_TRUE(beliefs.best());
+  EXPECT_NEAR(beliefs.best()->p, 0.8, 1e-9);
+  EXPECT_LT(pose_error(beliefs.best()->T_map_odometry, answer(10.0, 0.8).T_map_lidar).translation_m, 1e-9);
+}
+
+TEST(PlaceBeliefs, TwoPlacesThatAreAlikeShareWhatOneWouldGet) {
+  PlaceBeliefs beliefs({});
+  beliefs.add({answer(10.0, 0.9), answer(300.0, 0.9)}, moved(0.0));
+  // Odds 9 : 9 : 1.
+  EXPECT_NEAR(beliefs.best()->p, 9.0 / 19.0, 1e-9);
+  EXPECT_LT(beliefs.best()->p, RelocalizationOptions().min_p_correct);
+}
+
+TEST(PlaceBeliefs, AnswersToOneScanThatSayTheSameCountOnce) {
+  PlaceBeliefs beliefs({});
+  beliefs.add({answer(10.0, 0.7), answer(10.3, 0.8), answer(9.8, 0.6)}, moved(0.0));
+  EXPECT_EQ(beliefs.all().size(), 1U);
+  EXPECT_NEAR(beliefs.best()->p, 0.8, 1e-9);
+}
+
+TEST(PlaceBeliefs, MoreScansDecideBetweenPlacesThatAreAlike) {
+  PlaceBeliefs beliefs({});
+  beliefs.add({answer(10.0, 0.9), answer(300.0, 0.9)}, moved(0.0));
+  beliefs.add({PlaceAnswer{answer(10.0, 0).T_map_lidar * moved(5.0), Matrix6d::Identity(), 0.9}}, moved(5.0));
+  // Odds 9 * sqrt(9) and 9 * 0.4 against 1.
+  EXPECT_NEAR(beliefs.best()->p, 27.0 / 31.6, 1e-6);
+  EXPECT_NEAR(beliefs.best()->T_map_odometry.translation().x(), 10.0, 1e-9);
+}
+
+TEST(PlaceBeliefs, WhatIsNeverConfirmedFades) {
+  PlaceBeliefs beliefs({});
+  beliefs.add({answer(10.0, 0.8)}, moved(0.0));
+  beliefs.add({}, moved(2.0));
+  EXPECT_LT(beliefs.best()->p, 0.8);
+  for (int i = 0; i < 8; ++i) {
+    beliefs.add({}, moved(4.0 + 2.0 * i));
+  }
+  EXPECT_FALSE(beliefs.best());
+}
+
+TEST(PlaceBeliefs, ProbabilitiesAndNoneOfTheseMakeOne) {
+  PlaceBeliefs beliefs({});
+  beliefs.add({answer(10.0, 0.9), answer(100.0, 0.5), answer(200.0, 0.2)}, moved(0.0));
+  double sum = 0.0;
+  for (const PlaceBelief& belief : beliefs.all()) {
+    sum += belief.p;
+  }
+  // Odds 9, 1, 0.25 against 1.
+  EXPECT_NEAR(1.0 - sum, 1.0 / 11.25, 1e-9);
+}
+
+}  // namespace
+}  // namespace loopmark

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/slam/relocalizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "loopmark/core/error.hpp"
+#include "loopmark/core/random.hpp"
+
+namespace loopmark {
+namespace {
+
+/// A winding street with houses that all differ, 400 m long; the sensor drives along y = 0.
+struct Street {
+  std::vector<Eigen::Vector3d> points;
+
+  Street() {
+    Rng rng(1);
+    for (int side : {-1, 1}) {
+      for (double x = -60.0; x < 460.0;) {
+        const double width = rng.uniform(3.0, 9.0);
+        const double depth = side * rng.uniform(5.0, 11.0);
+        const double height = rng.uniform(2.0, 7.0);
+        add_box(x, depth, width, height);
+        x += width + rng.uniform(0.0, 2.0);
+      }
+    }
+    for (double x = -60.0; x < 460.0; x += 0.5) {
+      for (double y = -5.0; y < 5.0; y += 0.5) {
+        points.emplace_back(x, y, -1.8);
+      }
+    }
+  }
+
+  void add_box(double x, double depth, double width, double height) {
+    for (double z = -1.8; z < height; z += 0.4) {
+      for (double s = 0.0; s < width; s += 0.3) {
+        points.emplace_back(x + s, depth, z);
+      }
+      for (double s = 0.0; s < 3.0; s += 0.3) {
+        points.emplace_back(x, depth + std::copysign(s, depth), z);
+      }
+    }
+  }
+
+  Scan seen_from(const Pose& T_map_lidar, std::size_t index) const {
+    Scan scan;
+    scan.index = index;
+    scan.stamp_s = 0.1 * static_cast<double>(index);
+    for (const Eigen::Vector3d& p : points) {
+      const Eigen::Vector3d q = T_map_lidar.inverse() * p;
+      if (q.norm() < 45.0) {
+        scan.cloud.points.push_back(q.cast<float>());
+      }
+    }
+    return scan;
+  }
+};
+
+/// Answers with the truth about a scan, as told beforehand.
+class TellingMap final : public PlaceMap {
+ public:
+  explicit TellingMap(const Street& street) : street_(street) {}
+
+  std::vector<PlaceAnswer> search(const PointCloud& /*scan*/, std::size_t /*places*/) const override {
+    ++searches;
+    return answers;
+  }
+  std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const override {
+    std::vector<Eigen::Vector3d> near;
+    for (const Eigen::Vector3d& p : street_.points) {
+      if ((p - position).norm() < radius) {
+        near.push_back(p);
+      }
+    }
+    return near;
+  }
+
+  std::vector<PlaceAnswer> answers;
+  mutable int searches = 0;
+
+ private:
+  const Street& street_;
+};
+
+class RelocalizerTest : public ::testing::Test {
+ protected:
+  RelocalizedScan drive_to(double x, double p) {
+    const Pose truth = pose_from_yaw(0.02 * std::sin(x / 20.0), {x, 0.5 * std::sin(x / 30.0), 0.0});
+    const Pose told = truth * pose_from_yaw(0.01, {0.2, -0.1, 0.0});
+    map_->answers = p > 0.0 ? std::vector<PlaceAnswer>{{told, Matrix6d::Identity(), p}} : std::vector<PlaceAnswer>{};
+    truth_ = truth;
+    return relocalizer_.add(street_.seen_from(truth, next_++));
+  }
+
+  Street street_;
+  std::shared_ptr<TellingMap> map_ = std::make_shared<TellingMap>(street_);
+  Relocalizer relocalizer_{map_, {}};
+  Pose truth_ = Pose::Identity();
+  std::size_t next_ = 0;
+};
+
+TEST_F(RelocalizerTest, FindsThePlaceThenTracksWithoutSearching) {
+  RelocalizedScan answer = drive_to(0.0, 0.95);
+  EXPECT_EQ(answer.state, RelocalizationState::kTracking);
+  EXPECT_TRUE(answer.answered);
+  EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15);
+  for (double x = 1.0; x < 60.0; x += 1.0) {
+    answer = drive_to(x, 0.0);
+    ASSERT_EQ(answer.state, RelocalizationState::kTracking) << x << ": " << answer.reason;
+    EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15) << x;
+  }
+  EXPECT_EQ(map_->searches, 1);
+  EXPECT_GT(answer.p_correct, 0.95);
+}
+
+TEST_F(RelocalizerTest, SearchesOnUntilItIsSure) {
+  RelocalizedScan answer = drive_to(0.0, 0.3);
+  EXPECT_EQ(answer.state, RelocalizationState::kSearching);
+  EXPECT_FALSE(answer.answered);
+  EXPECT_NEAR(answer.p_correct, 0.3, 1e-9);
+  answer = drive_to(0.6, 0.9);
+  EXPECT_EQ(map_->searches, 1) << "it hardly moved";
+  int scans = 0;
+  for (double x = 1.2; answer.state != RelocalizationState::kTracking && scans < 10; x += 0.6, ++scans) {
+    answer = drive_to(x, 0.9);
+  }
+  EXPECT_EQ(answer.state, RelocalizationState::kTracking) << answer.reason << " " << answer.p_correct;
+  EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15);
+}
+
+TEST_F(RelocalizerTest, NoticesThatItIsLostAndFindsItselfAgain) {
+  for (double x = 0.0; x < 10.0; x += 1.0) {
+    ASSERT_EQ(drive_to(x, 0.95).state, RelocalizationState::kTracking) << x;
+  }
+  // Carried off: nothing looks right for a while.
+  bool lost = false;
+  std::size_t wrong = 0;
+  for (double x = 200.0; x < 210.0; x += 1.0) {
+    const RelocalizedScan answer = drive_to(x, 0.0);
+    lost = lost || answer.state == RelocalizationState::kLost;
+    wrong += answer.answered && pose_error(answer.T_map_lidar, truth_).translation_m > 0.6 ? 1 : 0;
+  }
+  EXPECT_TRUE(lost);
+  EXPECT_LE(wrong, 2U);
+  RelocalizedScan answer;
+  for (double x = 210.0; x < 216.0; x += 1.5) {
+    answer = drive_to(x, 0.95);
+  }
+  EXPECT_EQ(answer.state, RelocalizationState::kTracking);
+  EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15);
+}
+
+TEST_F(RelocalizerTest, AnEmptyScanIsNoAnswer) {
+  const RelocalizedScan answer = relocalizer_.add(Scan{});
+  EXPECT_FALSE(answer.answered);
+  EXPECT_FALSE(answer.reason.empty());
+}
+
+TEST(RelocalizationOptions, AreChecked) {
+  RelocalizationOptions options;
+  options.tracking_p = 0.3;
+  EXPECT_THROW(check(options), InputError);
+  options = {};
+  options.places = 0;
+  EXPECT_THROW(check(options), InputError);
+}
+
+}  // namespace
+}  // namespace loopmark
