@@ -48,7 +48,7 @@ struct BalanceArguments {
 struct Subset {
   std::string name;
   std::size_t pairs = 0;
-  std::vector<int> sessions;   ///< none: all
+  std::vector<int> sessions;  ///< none: all
 };
 
 Subset parse_subset(const std::string& text) {
@@ -102,12 +102,14 @@ class Balancer {
       write_subset(subset, pool);
     }
     if (a_.revisits > 0) {
-      write_subset({"revisits", a_.revisits, {}}, make_revisit_pool(list_.drives, a_.revisits, a_.same_world, options_));
+      write_subset({"revisits", a_.revisits, {}},
+                   make_revisit_pool(list_.drives, a_.revisits, a_.same_world, options_));
     }
     if (a_.negatives > 0) {
       const auto negatives = find_hard_negatives(list_.drives, a_.negatives, a_.same_world, options_);
       write_negatives(folder_ / "negatives.txt", negatives);
-      std::printf("negatives.txt: %zu pairs of different places that look alike (%zu asked for)\n", negatives.size(), a_.negatives);
+      std::printf("negatives.txt: %zu pairs of different places that look alike (%zu asked for)\n", negatives.size(),
+                  a_.negatives);
     }
     write_file_atomically(folder_ / "strata.md", strata_);
     std::printf("written to %s; next: loopmark evaluate %s --data %s -o RESULT\n", folder_.c_str(),
@@ -154,7 +156,8 @@ class Balancer {
     const TextTable evenness = evenness_table(pairs, pool, options_.seed);
     std::printf("\n%s\n", to_markdown(evenness).c_str());
     strata_ += "# " + subset.name + "\n\n";
-    for (const TextTable& table : {set_overview({{subset.name, pairs}}), evenness, fairness_table(report), strata_table(pairs)}) {
+    for (const TextTable& table :
+         {set_overview({{subset.name, pairs}}), evenness, fairness_table(report), strata_table(pairs)}) {
       strata_ += to_markdown(table) + '\n';
     }
   }
@@ -177,7 +180,8 @@ Action set_up_balance(CLI::App& command, const Globals& globals) {
   command.add_option("logs", a->logs, "drive logs with poses, or the root folder of a data set")->required();
   command.add_option("-o,--output", a->output, "folder for the set, or its file NAME.txt")->required();
   command.add_option("--pairs", a->pairs, "pairs to choose (500)");
-  command.add_option("--subset", a->subsets, "NAME:PAIRS:SESSIONS, such as test:555:8-10; may be repeated; replaces --pairs");
+  command.add_option("--subset", a->subsets,
+                     "NAME:PAIRS:SESSIONS, such as test:555:8-10; may be repeated; replaces --pairs");
   command.add_option("--poses", a->poses, "reference poses of a log that has none, one a scan (TUM or KITTI)");
   command.add_option("--revisits", a->revisits, "pairs more than balance.max_gap_s apart, any direction");
   command.add_flag("--same-world", a->same_world, "the poses of all drives are of one world: revisits between drives");

@@ -61,7 +61,8 @@ Drive drive_at(const fs::path& path, int session, const fs::path& poses) {
 fs::path common_parent(const std::vector<fs::path>& logs) {
   fs::path parent = fs::absolute(logs.front()).lexically_normal().parent_path();
   for (const fs::path& log : logs) {
-    while (parent.has_relative_path() && fs::absolute(log).lexically_normal().lexically_relative(parent).string().rfind("..", 0) == 0) {
+    while (parent.has_relative_path() &&
+           fs::absolute(log).lexically_normal().lexically_relative(parent).string().rfind("..", 0) == 0) {
       parent = parent.parent_path();
     }
   }

@@ -13,8 +13,8 @@ namespace loopmark::app {
 /// The drives that a set is chosen from.
 struct DriveList {
   std::vector<Drive> drives;
-  std::filesystem::path root;    ///< what loopmark evaluate --data is to be given
-  bool needs_sessions = false;   ///< the root is a folder of logs: sessions.txt must name them
+  std::filesystem::path root;   ///< what loopmark evaluate --data is to be given
+  bool needs_sessions = false;  ///< the root is a folder of logs: sessions.txt must name them
 };
 
 /// Opens logs, or a data set with all of its drives. `poses`: reference poses of a single log that has none, one a

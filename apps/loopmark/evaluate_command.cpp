@@ -42,16 +42,22 @@ void add_input_options(CLI::App& command, EvaluateArguments& a) {
 }
 
 void add_run_options(CLI::App& command, EvaluateArguments& a) {
-  command.add_option("--algorithms", a.algorithms, "what competes, separated by commas: engine, the paper's variants by name (ransac_mutual, ransac_gpf, "
-                     "gnc_clique, sc2, ...), or groups of them: paper, ransac-ablation, gpf-ablation, all")->delimiter(',');
+  command
+      .add_option(
+          "--algorithms", a.algorithms,
+          "what competes, separated by commas: engine, the paper's variants by name (ransac_mutual, ransac_gpf, "
+          "gnc_clique, sc2, ...), or groups of them: paper, ransac-ablation, gpf-ablation, all")
+      ->delimiter(',');
   command.add_option("--motions", a.motions, "motions somebody found, 19 columns: FILE or NAME=FILE; may be repeated");
   command.add_option("--command", a.commands, "a program: COMMAND or NAME=COMMAND; may be repeated");
-  command.add_option("--refine", a.refine, "each algorithm once more with: icp, sym-icp, bbr, plane-icp, gicp; by commas")
+  command
+      .add_option("--refine", a.refine, "each algorithm once more with: icp, sym-icp, bbr, plane-icp, gicp; by commas")
       ->delimiter(',');
   command.add_option("--features", a.features,
                      "NAME=FOLDER with descriptors FOLDER/SESSION/FRAME.npz: the paper's variants use them in place of "
                      "FPFH and are called VARIANT@NAME; may be repeated");
-  command.add_option("--repeats", a.repeats, "runs of each variant of the paper with other seeds, NAME#1, NAME#2, ... (1)");
+  command.add_option("--repeats", a.repeats,
+                     "runs of each variant of the paper with other seeds, NAME#1, NAME#2, ... (1)");
   command.add_option("--time-limit", a.time_limit_s, "of a program for one pair, seconds (30)");
   command.add_option("--max-rotation", a.criterion.max_rotation_deg, "success: RE below this, degrees (5)");
   command.add_option("--max-translation", a.criterion.max_translation_m, "success: TE below this, metres (0.6)");
@@ -85,8 +91,9 @@ void set_up_merge(CLI::App& command, MergeArguments& a, std::function<int()>& ch
 void set_up_paper(CLI::App& command, PaperArguments& a, std::function<int()>& chosen) {
   CLI::App* paper = command.add_subcommand("paper", "one of the paper's tables or figures from results, theirs beside");
   paper->add_option("table", a.table, "which one")->required()->check(CLI::IsMember(paper_table_names()));
-  paper->add_option("inputs", a.inputs,
-                    "result folders; matrix, running-times, match-sizes: TEST:TRAIN=RESULT; sets: NAME=PAIRS_FILE")
+  paper
+      ->add_option("inputs", a.inputs,
+                   "result folders; matrix, running-times, match-sizes: TEST:TRAIN=RESULT; sets: NAME=PAIRS_FILE")
       ->required();
   paper->add_option("--algorithm", a.algorithm, "failures: of this algorithm (the first)");
   paper->add_option("-o,--output", a.output, "folder for the table as .md, .tex and .html");
@@ -131,9 +138,8 @@ Action set_up_evaluate(CLI::App& command, const Globals& globals) {
   set_up_merge(command, arguments->merge, arguments->chosen);
   set_up_paper(command, arguments->paper, arguments->chosen);
   set_up_compare(command, arguments->compare, arguments->chosen);
-  return [arguments, &globals] {
-    return arguments->chosen ? arguments->chosen() : run_evaluate(arguments->run, globals);
-  };
+  return
+      [arguments, &globals] { return arguments->chosen ? arguments->chosen() : run_evaluate(arguments->run, globals); };
 }
 
 }  // namespace loopmark::app

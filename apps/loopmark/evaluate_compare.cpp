@@ -51,7 +51,9 @@ TextTable pair_table(const StoredResult& joined) {
   }
   for (const Outcome& outcome : joined.outcomes) {
     auto& row = table.rows.at(outcome.pair);
-    const std::string verdict = outcome.negative ? to_string(outcome.answer.status) : outcome.success ? "right" : "wrong";
+    const std::string verdict = outcome.negative  ? to_string(outcome.answer.status)
+                                : outcome.success ? "right"
+                                                  : "wrong";
     row.insert(row.end(), {verdict, fixed(outcome.error.translation_m, 3), fixed(outcome.error.rotation_deg, 3)});
   }
   return table;

@@ -85,7 +85,9 @@ Figure failures_figure(const PaperArguments& a) {
       ratio[i] = all[i] > 0.0 ? 100.0 * static_cast<double>(histogram.failures[i]) / all[i] : 0.0;
     }
     report::Plot counts(histogram.quantity, histogram.quantity, "pairs");
-    counts.size(420, 260).bars("all", histogram.edges, all).bars("failed", histogram.edges, as_doubles(histogram.failures));
+    counts.size(420, 260)
+        .bars("all", histogram.edges, all)
+        .bars("failed", histogram.edges, as_doubles(histogram.failures));
     report::Plot ratios(histogram.quantity + ": failed", histogram.quantity, "failed [%]");
     ratios.size(420, 260).bars("", histogram.edges, ratio);
     figure.plots.push_back(counts);
@@ -122,12 +124,30 @@ using Maker = std::function<Figure(const PaperArguments&)>;
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> table = {
-      {"evaluation", [](const PaperArguments& a) { return Figure{paper_evaluation_table(first_result(a), false), {}}; }},
-      {"cross-domain", [](const PaperArguments& a) { return Figure{paper_evaluation_table(first_result(a), true), {}}; }},
-      {"matrix", [](const PaperArguments& a) { return Figure{paper_matrix_table(domain_results(a)), {}}; }},
-      {"running-times", [](const PaperArguments& a) { return Figure{paper_times_table(domain_results(a)), {}}; }},
-      {"match-sizes", [](const PaperArguments& a) { return Figure{paper_match_sizes_table(domain_results(a)), {}}; }},
-      {"refinement", [](const PaperArguments& a) { return Figure{paper_refinement_table(first_result(a)), {}}; }},
+      {"evaluation",
+       [](const PaperArguments& a) {
+         return Figure{paper_evaluation_table(first_result(a), false), {}};
+       }},
+      {"cross-domain",
+       [](const PaperArguments& a) {
+         return Figure{paper_evaluation_table(first_result(a), true), {}};
+       }},
+      {"matrix",
+       [](const PaperArguments& a) {
+         return Figure{paper_matrix_table(domain_results(a)), {}};
+       }},
+      {"running-times",
+       [](const PaperArguments& a) {
+         return Figure{paper_times_table(domain_results(a)), {}};
+       }},
+      {"match-sizes",
+       [](const PaperArguments& a) {
+         return Figure{paper_match_sizes_table(domain_results(a)), {}};
+       }},
+      {"refinement",
+       [](const PaperArguments& a) {
+         return Figure{paper_refinement_table(first_result(a)), {}};
+       }},
       {"ransac-ablation", ablation_figure},
       {"gpf-ablation", ablation_figure},
       {"sets", sets_figure},

@@ -9,10 +9,10 @@
 namespace loopmark::app {
 
 struct PaperArguments {
-  std::string table;                   ///< which table or figure
-  std::vector<std::string> inputs;     ///< result folders, [TEST:TRAIN=]RESULT, or set files [NAME=]FILE
-  std::string algorithm;               ///< for the failure analysis
-  std::filesystem::path output;        ///< folder for .md, .tex and .html
+  std::string table;                ///< which table or figure
+  std::vector<std::string> inputs;  ///< result folders, [TEST:TRAIN=]RESULT, or set files [NAME=]FILE
+  std::string algorithm;            ///< for the failure analysis
+  std::filesystem::path output;     ///< folder for .md, .tex and .html
 };
 
 /// Names of the tables and figures that print_paper_table knows.
@@ -23,7 +23,7 @@ int print_paper_table(const PaperArguments& arguments);
 
 struct CompareArguments {
   std::filesystem::path first, second;
-  std::filesystem::path output;        ///< folder for compare.csv and compare.html; empty: only print
+  std::filesystem::path output;  ///< folder for compare.csv and compare.html; empty: only print
 };
 
 /// Puts two results of the same set side by side, pair by pair.

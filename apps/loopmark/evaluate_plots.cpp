@@ -11,7 +11,7 @@ using report::Plot;
 using report::Style;
 
 report::Plot recall_plot(const std::vector<AlgorithmSummary>& summaries, const std::string& title,
-                         const std::string& quantity, std::vector<RecallBin> AlgorithmSummary::* bins) {
+                         const std::string& quantity, std::vector<RecallBin> AlgorithmSummary::*bins) {
   Plot plot(title, quantity, "recall [%]");
   plot.y_range(0.0, 100.0).size(520, 340);
   for (std::size_t a = 0; a < summaries.size(); ++a) {
@@ -34,7 +34,8 @@ report::Plot recall_plot(const std::vector<AlgorithmSummary>& summaries, const s
 }
 
 report::Plot error_plot(const StoredResult& result, bool rotation) {
-  Plot plot(rotation ? "Rotation error" : "Translation error", rotation ? "RE below [deg]" : "TE below [m]", "pairs [%]");
+  Plot plot(rotation ? "Rotation error" : "Translation error", rotation ? "RE below [deg]" : "TE below [m]",
+            "pairs [%]");
   plot.y_range(0.0, 100.0).x_range(0.0, rotation ? 10.0 : 2.0).size(520, 340);
   for (const std::string& name : result.experiment.algorithms) {
     std::vector<double> errors;
@@ -67,7 +68,8 @@ report::Plot time_plot(const std::vector<AlgorithmSummary>& summaries) {
     style.colour = report::palette(a);
     style.radius = 5.0;
     plot.points(summaries[a].name, {seconds}, {100.0 * summaries[a].recall()}, style);
-    plot.intervals("", {seconds}, {100.0 * summaries[a].recall_interval.low}, {100.0 * summaries[a].recall_interval.high}, style);
+    plot.intervals("", {seconds}, {100.0 * summaries[a].recall_interval.low},
+                   {100.0 * summaries[a].recall_interval.high}, style);
   }
   return plot;
 }

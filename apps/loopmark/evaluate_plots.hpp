@@ -12,7 +12,7 @@ namespace loopmark::app {
 
 /// Recall by bins of one quantity, with intervals.
 report::Plot recall_plot(const std::vector<AlgorithmSummary>& summaries, const std::string& title,
-                         const std::string& quantity, std::vector<RecallBin> AlgorithmSummary::* bins);
+                         const std::string& quantity, std::vector<RecallBin> AlgorithmSummary::*bins);
 /// Share of pairs whose translation (metres) or rotation (degrees) error is below a value.
 report::Plot error_plot(const StoredResult& result, bool rotation);
 /// Recall against median seconds of the paper's accounting.

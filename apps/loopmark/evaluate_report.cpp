@@ -37,15 +37,16 @@ std::vector<const Outcome*> failures_of(const StoredResult& result, const std::s
 }
 
 report::Table failure_list(const StoredResult& result, const std::vector<const Outcome*>& failures) {
-  report::Table table({"Pair", "Frames", "Status", "TE (m)", "RE (deg)", "P(correct)", "Distance (m)", "Overlap", "Note"},
-                      "Failed pairs");
+  report::Table table(
+      {"Pair", "Frames", "Status", "TE (m)", "RE (deg)", "P(correct)", "Distance (m)", "Overlap", "Note"},
+      "Failed pairs");
   for (const Outcome* outcome : failures) {
     const bool negative = outcome->negative;
     const RegistrationPair* pair = negative ? nullptr : &result.set.pairs[outcome->pair];
     table.row({report::count_cell(outcome->pair), to_string(result.set.key(outcome->pair)),
                negative ? "false accept" : to_string(outcome->answer.status),
-               report::number_cell(outcome->error.translation_m, 2), report::number_cell(outcome->error.rotation_deg, 2),
-               report::number_cell(outcome->answer.p_correct, 3),
+               report::number_cell(outcome->error.translation_m, 2),
+               report::number_cell(outcome->error.rotation_deg, 2), report::number_cell(outcome->answer.p_correct, 3),
                pair == nullptr ? report::Cell("-") : report::number_cell(pair->motion.head<3>().norm(), 1),
                pair == nullptr ? report::Cell("-") : report::number_cell(pair->overlap_symmetric, 2),
                outcome->answer.note});
@@ -131,8 +132,8 @@ void write_evaluation_report(const std::filesystem::path& folder, const StoredRe
   const auto tests = paired_tests(result.outcomes, result.experiment.algorithms);
   report::Page page("Registration on " + result.experiment.set_name,
                     std::to_string(result.experiment.pairs) + " pairs, " + std::to_string(result.experiment.negatives) +
-                        " negatives; right below " + fixed(result.experiment.criterion.max_rotation_deg, 1) + " deg and " +
-                        fixed(result.experiment.criterion.max_translation_m, 2) + " m");
+                        " negatives; right below " + fixed(result.experiment.criterion.max_rotation_deg, 1) +
+                        " deg and " + fixed(result.experiment.criterion.max_translation_m, 2) + " m");
   const auto tables = result_tables(result, summaries, tests);
   page.heading("Overview").table(report_table(tables.front())).paragraph(tables.front().note);
   add_plots(page, result, summaries);

@@ -38,8 +38,8 @@ class BalanceProgram : public testing::Test {
       const Pose T = poses[data->frame_index(pair.key.session, pair.key.target)].inverse() *
                      poses[data->frame_index(pair.key.session, pair.key.source)];
       EXPECT_LT(pose_error(T, pair.T_target_source).translation_m, 1e-9);
-      const Overlap again = overlap(data->load(pair.key.session, pair.key.source),
-                                    data->load(pair.key.session, pair.key.target), T);
+      const Overlap again =
+          overlap(data->load(pair.key.session, pair.key.source), data->load(pair.key.session, pair.key.target), T);
       EXPECT_NEAR(again.symmetric, pair.overlap_symmetric, 1e-12);
       EXPECT_GE(again.symmetric, 0.2);
     }
@@ -49,7 +49,8 @@ class BalanceProgram : public testing::Test {
 };
 
 TEST_F(BalanceProgram, ChoosesFromKittiDrives) {
-  test::write_kitti_layout(folder_ / "kitti", {test::circle_drive(2, 60, 0, 0.0), test::circle_drive(5, 40, 0, 1.0, -1.0)});
+  test::write_kitti_layout(folder_ / "kitti",
+                           {test::circle_drive(2, 60, 0, 0.0), test::circle_drive(5, 40, 0, 1.0, -1.0)});
   balance_and_check(folder_ / "kitti", 24);
 }
 
@@ -68,7 +69,8 @@ TEST_F(BalanceProgram, ChoosesFromNuScenesSweeps) {
 }
 
 TEST_F(BalanceProgram, SubsetsKeepToTheirDrives) {
-  test::write_kitti_layout(folder_ / "kitti", {test::circle_drive(2, 40, 0, 0.0), test::circle_drive(5, 40, 0, 1.0, -1.0)});
+  test::write_kitti_layout(folder_ / "kitti",
+                           {test::circle_drive(2, 40, 0, 0.0), test::circle_drive(5, 40, 0, 1.0, -1.0)});
   const auto result = run_program({"balance", folder_ / "kitti", "--subset", "train:10:2", "--subset", "test:8:5",
                                    "--quiet", "-o", folder_ / "set"});
   ASSERT_EQ(result.exit_code, 0) << result.output;

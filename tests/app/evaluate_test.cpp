@@ -22,7 +22,7 @@ using testing_support::RunningProgram;
 
 struct PublishedMotions {
   const char* set;
-  double recall;   ///< at 5 deg / 0.6 m, measured from the published files by other means
+  double recall;  ///< at 5 deg / 0.6 m, measured from the published files by other means
 };
 
 class PublishedCoarseMotions : public testing::TestWithParam<PublishedMotions> {};
@@ -59,8 +59,9 @@ class EvaluateProgram : public testing::Test {
     write_motions(folder_ / "motions.txt", motions);
   }
   std::vector<std::string> command(const std::string& result, const std::string& shard = "1/1") const {
-    return {"evaluate", folder_ / "set.txt", "--motions", "m=" + (folder_ / "motions.txt").string(), "--quiet", "--shard",
-            shard, "-o", folder_ / result};
+    return {"evaluate",      folder_ / "set.txt", "--motions", "m=" + (folder_ / "motions.txt").string(),
+            "--quiet",       "--shard",           shard,       "-o",
+            folder_ / result};
   }
   std::string bytes(const std::string& result) const {
     std::string all;
@@ -129,7 +130,8 @@ TEST_F(EvaluateProgram, ComparesAndMakesThePapersTables) {
 TEST_F(EvaluateProgram, SaysWhatIsMissing) {
   EXPECT_EQ(run_program({"evaluate"}).exit_code, 2);
   EXPECT_EQ(run_program({"evaluate", folder_ / "none.txt", "-o", folder_ / "r"}).exit_code, 2);
-  const auto no_data = run_program({"evaluate", folder_ / "set.txt", "--command", "x=echo ready; sleep 9", "-o", folder_ / "r"});
+  const auto no_data =
+      run_program({"evaluate", folder_ / "set.txt", "--command", "x=echo ready; sleep 9", "-o", folder_ / "r"});
   EXPECT_EQ(no_data.exit_code, 2);
   EXPECT_THAT(no_data.output, HasSubstr("--data"));
 }

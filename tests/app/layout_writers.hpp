@@ -26,9 +26,11 @@ inline std::string quaternion_text(const Pose& pose, bool scalar_first, const ch
   const Eigen::Quaterniond q(pose.linear());
   char text[160];
   if (scalar_first) {
-    std::snprintf(text, sizeof text, "%.17g%s%.17g%s%.17g%s%.17g", q.w(), between, q.x(), between, q.y(), between, q.z());
+    std::snprintf(text, sizeof text, "%.17g%s%.17g%s%.17g%s%.17g", q.w(), between, q.x(), between, q.y(), between,
+                  q.z());
   } else {
-    std::snprintf(text, sizeof text, "%.17g%s%.17g%s%.17g%s%.17g", q.x(), between, q.y(), between, q.z(), between, q.w());
+    std::snprintf(text, sizeof text, "%.17g%s%.17g%s%.17g%s%.17g", q.x(), between, q.y(), between, q.z(), between,
+                  q.w());
   }
   return text;
 }
@@ -83,9 +85,10 @@ inline void write_nuscenes_layout(const fs::path& root, const Drive& drive) {
     const Eigen::Vector3d t = drive.T_world_cloud[i].translation();
     char translation[96];
     std::snprintf(translation, sizeof translation, "%.17g,%.17g,%.17g", t.x(), t.y(), t.z());
-    sweeps += (i ? "," : "[") + std::string(R"({"token":"w)") + n + R"(","sample_token":"a)" + n + R"(","ego_pose_token":"e)" + n +
-              R"(","calibrated_sensor_token":"c","timestamp":)" + stamp + R"(,"is_key_frame":)" + (i ? "false" : "true") +
-              R"(,"filename":"sweeps/LIDAR_TOP/w)" + n + R"(.pcd.bin","prev":")" + previous + R"(","next":")" + next + "\"}";
+    sweeps += (i ? "," : "[") + std::string(R"({"token":"w)") + n + R"(","sample_token":"a)" + n +
+              R"(","ego_pose_token":"e)" + n + R"(","calibrated_sensor_token":"c","timestamp":)" + stamp +
+              R"(,"is_key_frame":)" + (i ? "false" : "true") + R"(,"filename":"sweeps/LIDAR_TOP/w)" + n +
+              R"(.pcd.bin","prev":")" + previous + R"(","next":")" + next + "\"}";
     poses += (i ? "," : "[") + std::string(R"({"token":"e)") + n + R"(","rotation":[)" +
              quaternion_text(drive.T_world_cloud[i], true, ",") + R"(],"translation":[)" + translation + "]}";
     std::string bytes;

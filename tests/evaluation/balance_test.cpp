@@ -32,8 +32,11 @@ const Drive& drive_of(int session) { return session == 3 ? drives()[0] : drives(
 std::vector<Eigen::Vector3d> brute_centroids(const std::vector<Eigen::Vector3f>& points) {
   std::map<std::tuple<int, int, int>, std::pair<Eigen::Vector3d, int>> cells;
   for (const auto& p : points) {
-    auto& [sum, count] = cells.try_emplace({static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
-                                            static_cast<int>(std::floor(p.z()))}, Eigen::Vector3d::Zero(), 0).first->second;
+    auto& [sum, count] = cells
+                             .try_emplace({static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
+                                           static_cast<int>(std::floor(p.z()))},
+                                          Eigen::Vector3d::Zero(), 0)
+                             .first->second;
     sum += p.cast<double>();
     ++count;
   }
@@ -47,7 +50,9 @@ std::vector<Eigen::Vector3d> brute_centroids(const std::vector<Eigen::Vector3f>&
 std::pair<double, double> brute_overlap(const RegistrationPair& pair) {
   const Drive& from = drive_of(pair.key.session);
   const Drive& to = drive_of(pair.key.target_session);
-  const auto place = [](const Drive& drive, int frame) { return static_cast<std::size_t>(frame - drive.frames.front()); };
+  const auto place = [](const Drive& drive, int frame) {
+    return static_cast<std::size_t>(frame - drive.frames.front());
+  };
   const auto a = brute_centroids(transformed(from.load(place(from, pair.key.source)), pair.T_target_source).points);
   const auto b = brute_centroids(to.load(place(to, pair.key.target)).points);
   double near = 0.0;
@@ -117,7 +122,8 @@ TEST(CandidatePool, IsTheSameForAnyThreadsAndGoesOnWhereItWasCut) {
 }
 
 /// The selection written down once more without the grid.
-std::vector<PairKey> brute_selection(const std::vector<RegistrationPair>& pool, std::size_t count, const BalanceOptions& o) {
+std::vector<PairKey> brute_selection(const std::vector<RegistrationPair>& pool, std::size_t count,
+                                     const BalanceOptions& o) {
   Rng rng(task_seed(o.seed, {0x73656c65U, pool.size()}));
   std::vector<bool> here(pool.size(), true);
   std::map<int, double> candidates;
@@ -180,7 +186,8 @@ TEST(Selection, IsMoreEvenThanChanceAndFairToDrives) {
   Rng rng(1);
   std::vector<RegistrationPair> many;
   for (int i = 0; i < 4000; ++i) {  // mostly straight on, as drives are; two in three from the first drive
-    Pose pose = pose_from_yaw(0.4 * std::pow(rng.normal(), 3) * 0.1, {-60.0 * rng.uniform() * rng.uniform(), 2.0 * rng.normal(), 0.0});
+    Pose pose = pose_from_yaw(0.4 * std::pow(rng.normal(), 3) * 0.1,
+                              {-60.0 * rng.uniform() * rng.uniform(), 2.0 * rng.normal(), 0.0});
     many.push_back(make_pair({i % 3 == 0 ? 2 : 1, i, i + 1, i % 3 == 0 ? 2 : 1}, pose, 0.5, 0.5));
   }
   SelectionReport report;

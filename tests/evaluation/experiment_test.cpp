@@ -21,7 +21,8 @@ using test::TemporaryFolder;
 /// Answers that depend on the pair only; some are wrong, some abstain. May stop the run at one pair.
 class MadeUpAlgorithm : public RegistrationAlgorithm {
  public:
-  MadeUpAlgorithm(std::string name, const EvaluatedSet& set, std::uint64_t seed) : name_(std::move(name)), set_(set), seed_(seed) {}
+  MadeUpAlgorithm(std::string name, const EvaluatedSet& set, std::uint64_t seed)
+      : name_(std::move(name)), set_(set), seed_(seed) {}
 
   const std::string& name() const override { return name_; }
   std::string settings() const override { return "seed " + std::to_string(seed_); }
@@ -137,7 +138,8 @@ TEST_F(ExperimentRun, CutAnywhereItResumesToTheSameBytes) {
     fs::create_directories(folder);
     fs::copy(folder_ / "whole", folder, fs::copy_options::recursive);
     for (const char* name : {"shards/1-of-1.records", "shards/1-of-1.times"}) {
-      fs::resize_file(folder / name, static_cast<std::uintmax_t>(rng.uniform() * static_cast<double>(fs::file_size(folder / name))));
+      fs::resize_file(folder / name,
+                      static_cast<std::uintmax_t>(rng.uniform() * static_cast<double>(fs::file_size(folder / name))));
     }
     run(folder, task_);
     EXPECT_EQ(products(folder), expected);
@@ -216,7 +218,8 @@ TEST(Refined, ImprovesAnEarlierAnswer) {
   for (int i = 0; i < 4000; ++i) {
     const double a = rng.uniform(-20.0, 20.0);
     const double b = rng.uniform(0.0, 6.0);
-    cloud.points.emplace_back(i % 2 == 0 ? Eigen::Vector3d(a, 8.0, b).cast<float>() : Eigen::Vector3d(12.0, a, b).cast<float>());
+    cloud.points.emplace_back(i % 2 == 0 ? Eigen::Vector3d(a, 8.0, b).cast<float>()
+                                         : Eigen::Vector3d(12.0, a, b).cast<float>());
     cloud.points.emplace_back(Eigen::Vector3d(a, rng.uniform(-20.0, 8.0), 0.0).cast<float>());
   }
   Pose truth = pose_from_yaw(0.3, {2.0, 1.0, 0.0});

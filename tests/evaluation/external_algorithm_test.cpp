@@ -85,8 +85,9 @@ TEST(ExternalAlgorithm, ThatHangsRunsIntoTheTimeLimit) {
 }
 
 TEST(ExternalAlgorithm, ThatTalksNonsenseCountsAsCrashed) {
-  for (const char* line : {"hello world", "motion 1 2 3", "motion 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0.5 x",
-                           "motion 2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0.5 0.1", "motion nan 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0.5 0.1"}) {
+  for (const char* line :
+       {"hello world", "motion 1 2 3", "motion 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0.5 x",
+        "motion 2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0.5 0.1", "motion nan 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0.5 0.1"}) {
     const Competitor competitor(std::string("echo ") + line);
     const Answer answer = ask(*competitor.start());
     EXPECT_EQ(answer.status, AnswerStatus::kCrashed) << line;

@@ -41,7 +41,8 @@ inline Pose random_motion(Rng& rng, double distance_m = 40.0) {
   Pose pose = Pose::Identity();
   pose.linear() =
       rotation_from_euler_degrees({rng.uniform(-4.0, 4.0), rng.uniform(-4.0, 4.0), rng.uniform(-180.0, 180.0)});
-  pose.translation() = Eigen::Vector3d(rng.uniform(-distance_m, distance_m), rng.uniform(-distance_m, distance_m), rng.uniform(-1.0, 1.0));
+  pose.translation() = Eigen::Vector3d(rng.uniform(-distance_m, distance_m), rng.uniform(-distance_m, distance_m),
+                                       rng.uniform(-1.0, 1.0));
   return pose;
 }
 

@@ -39,13 +39,11 @@ TEST_P(PublishedSets, AreReadAndWrittenUnchanged) {
   EXPECT_EQ(without_header(read_file(folder / "again.txt")), without_header(read_file(file)));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PublishedSets,
-                         testing::Values(PublishedSet{"ApolloSouthbay/test.txt", 7008},
-                                         PublishedSet{"NuScenes_boston/test.txt", 2592},
-                                         PublishedSet{"NuScenes_singapore/test.txt", 2592},
-                                         PublishedSet{"KITTI_10m/test.txt", 555},
-                                         PublishedSet{"ApolloSouthbay/validation.txt", 288},
-                                         PublishedSet{"KITTI_10m/validation.txt", 180}));
+INSTANTIATE_TEST_SUITE_P(
+    All, PublishedSets,
+    testing::Values(PublishedSet{"ApolloSouthbay/test.txt", 7008}, PublishedSet{"NuScenes_boston/test.txt", 2592},
+                    PublishedSet{"NuScenes_singapore/test.txt", 2592}, PublishedSet{"KITTI_10m/test.txt", 555},
+                    PublishedSet{"ApolloSouthbay/validation.txt", 288}, PublishedSet{"KITTI_10m/validation.txt", 180}));
 
 TEST(PublishedMotions, AreWrittenUnchanged) {
   const fs::path file = fs::path(LOOPMARK_SHARED_DIR) / "balanced_sets/NuScenes_boston/test.coarse_motions.txt";

@@ -62,7 +62,8 @@ TEST(EvaluationTable, PutsIcpBesideItsAlgorithmAndThePaperBelow) {
   const TextTable table = paper_evaluation_table(made_up_result({"x", "x+icp"}), false);
   ASSERT_EQ(table.rows.size(), 1U + paper::evaluation().size());
   EXPECT_THAT(table.rows[0], testing::ElementsAre("x", "50.00 %", "1.000", "65.00 %", "2.000"));
-  EXPECT_THAT(table.rows.back(), testing::ElementsAre("RANSAC (GPF) (paper, NuScenes-Boston)", "86.88 %", "0.199", "91.90 %", "0.257"));
+  EXPECT_THAT(table.rows.back(),
+              testing::ElementsAre("RANSAC (GPF) (paper, NuScenes-Boston)", "86.88 %", "0.199", "91.90 %", "0.257"));
 }
 
 TEST(MatrixTable, SplitsTrainDomains) {
@@ -95,7 +96,8 @@ TEST(FailureTable, CountsEveryPairOnceForEachQuantity) {
 TEST(TextTables, EscapeWhatMarkdownAndLatexWouldRead) {
   const TextTable table{"t", "50 % of a_b", {"a|b", "c"}, {{"x & y", "1 %"}}, ""};
   EXPECT_THAT(to_markdown(table), testing::HasSubstr("| a\\|b | c |"));
-  EXPECT_THAT(to_latex(table), testing::AllOf(testing::HasSubstr("50 \\% of a\\_b"), testing::HasSubstr("x \\& y & 1 \\% \\\\")));
+  EXPECT_THAT(to_latex(table),
+              testing::AllOf(testing::HasSubstr("50 \\% of a\\_b"), testing::HasSubstr("x \\& y & 1 \\% \\\\")));
 }
 
 }  // namespace

@@ -23,7 +23,9 @@ constexpr std::size_t kMostMisses = 20'000'000;
 class Cube {
  public:
   Cube(const std::vector<RegistrationPair>& pool, double radius)
-      : pool_(pool), radius_(radius), cells_(std::max(1, static_cast<int>(std::floor(1.0 / radius)))),
+      : pool_(pool),
+        radius_(radius),
+        cells_(std::max(1, static_cast<int>(std::floor(1.0 / radius)))),
         here_(pool.size(), true) {
     rescale();
   }
@@ -113,9 +115,7 @@ class Cube {
 
  public:
   /// A place as the grid sees it: unused axes in the middle.
-  Vector6d settled(const Vector6d& place) const {
-    return (used_.array() > 0.0).select(place, Vector6d::Constant(0.5));
-  }
+  Vector6d settled(const Vector6d& place) const { return (used_.array() > 0.0).select(place, Vector6d::Constant(0.5)); }
 
  private:
   const std::vector<RegistrationPair>& pool_;

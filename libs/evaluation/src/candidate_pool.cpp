@@ -40,7 +40,8 @@ std::vector<Source> sources_of(const std::vector<Drive>& drives, std::size_t spa
 /// The last frame that is at most max_gap_s after the source.
 std::size_t last_in_time(const Drive& drive, std::size_t place, double max_gap_s) {
   const double end = drive.stamps_s[place] + max_gap_s;
-  const auto after = std::upper_bound(drive.stamps_s.begin() + static_cast<std::ptrdiff_t>(place), drive.stamps_s.end(), end);
+  const auto after =
+      std::upper_bound(drive.stamps_s.begin() + static_cast<std::ptrdiff_t>(place), drive.stamps_s.end(), end);
   return static_cast<std::size_t>(after - drive.stamps_s.begin()) - 1;
 }
 
@@ -48,8 +49,12 @@ std::size_t last_in_time(const Drive& drive, std::size_t place, double max_gap_s
 class FarthestSearch {
  public:
   FarthestSearch(const Drive& drive, std::size_t place, const BalanceOptions& options, PoolCost& cost)
-      : drive_(drive), place_(place), options_(options), probe_(drive, place, cost),
-        good_(place), bad_(last_in_time(drive, place, options.max_gap_s) + 1) {}
+      : drive_(drive),
+        place_(place),
+        options_(options),
+        probe_(drive, place, cost),
+        good_(place),
+        bad_(last_in_time(drive, place, options.max_gap_s) + 1) {}
 
   /// Narrows [good, bad) to neighbours, starting `guess` frames ahead; the source itself when no target is good.
   std::size_t farthest(std::size_t guess) {
@@ -124,8 +129,9 @@ void check(const BalanceOptions& options) {
 
 void check(const Drive& drive) {
   if (drive.T_world_cloud.size() != drive.size() || drive.size() == 0) {
-    throw InputError(drive.name, "", "no reference pose for every scan (" + std::to_string(drive.T_world_cloud.size()) +
-                     " poses, " + std::to_string(drive.size()) + " scans)",
+    throw InputError(drive.name, "",
+                     "no reference pose for every scan (" + std::to_string(drive.T_world_cloud.size()) + " poses, " +
+                         std::to_string(drive.size()) + " scans)",
                      "balanced sets need poses: put poses.txt into the log, or map it first");
   }
   for (std::size_t i = 1; i < drive.size(); ++i) {

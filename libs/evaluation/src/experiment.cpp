@@ -53,7 +53,8 @@ class RecallSoFar {
       return "";
     }
     char line[64];
-    std::snprintf(line, sizeof line, "recall %.1f %%", 100.0 * static_cast<double>(successes_) / static_cast<double>(count_));
+    std::snprintf(line, sizeof line, "recall %.1f %%",
+                  100.0 * static_cast<double>(successes_) / static_cast<double>(count_));
     return line;
   }
 
@@ -66,7 +67,11 @@ class RecallSoFar {
 class Run {
  public:
   Run(const ExperimentTask& task, const AlgorithmList& algorithms, const ScanLoader& load, OutcomeWriter& writer)
-      : task_(task), algorithms_(algorithms), load_(load), writer_(writer), todo_(pairs_left()),
+      : task_(task),
+        algorithms_(algorithms),
+        load_(load),
+        writer_(writer),
+        todo_(pairs_left()),
         progress_("pairs", todo_.size()) {
     for (const Outcome& outcome : writer.found()) {
       recall_.add(outcome);

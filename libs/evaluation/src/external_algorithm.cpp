@@ -59,7 +59,8 @@ Answer parse_answer(const std::string& line) {
   }
   Answer answer;
   try {
-    answer.T_target_source = rigid_from_matrix(Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data()), 1e-2);
+    answer.T_target_source =
+        rigid_from_matrix(Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data()), 1e-2);
   } catch (const std::invalid_argument& error) {
     return nonsense(line, error.what());
   }
@@ -126,8 +127,8 @@ class ExternalAlgorithm : public RegistrationAlgorithm {
       const std::string what = read == ChildProcess::Read::kTimeLimit ? "said nothing"
                                : read == ChildProcess::Read::kLine    ? "said '" + shortened(line) + "'"
                                                                       : "ended (" + process->stop() + ")";
-      throw InputError("the program '" + options_.command + "' " + what + " where 'ready' was expected",
-                       "", "it must speak the protocol of docs/evaluation.md");
+      throw InputError("the program '" + options_.command + "' " + what + " where 'ready' was expected", "",
+                       "it must speak the protocol of docs/evaluation.md");
     }
     return process;
   }

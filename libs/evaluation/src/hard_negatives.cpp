@@ -66,9 +66,11 @@ float distance(const std::vector<float>& a, const std::vector<float>& b) {
   return sum;
 }
 
-bool far_apart(const Described& a, const Described& b, const std::vector<Drive>& drives, bool one_world, double least_m) {
-  return (a.drive == b.drive || one_world) && (drives[a.drive].T_world_cloud[a.place].translation() -
-                                               drives[b.drive].T_world_cloud[b.place].translation()).norm() >= least_m;
+bool far_apart(const Described& a, const Described& b, const std::vector<Drive>& drives, bool one_world,
+               double least_m) {
+  return (a.drive == b.drive || one_world) &&
+         (drives[a.drive].T_world_cloud[a.place].translation() - drives[b.drive].T_world_cloud[b.place].translation())
+                 .norm() >= least_m;
 }
 
 using Likeness = std::tuple<float, std::size_t, std::size_t>;  // distance, first, second
@@ -139,7 +141,8 @@ std::vector<PairKey> find_hard_negatives(const std::vector<Drive>& drives, std::
       continue;
     }
     used.insert({first, second});
-    negatives.push_back({source.session, source.frames[frames[first].place], target.frames[frames[second].place], target.session});
+    negatives.push_back(
+        {source.session, source.frames[frames[first].place], target.frames[frames[second].place], target.session});
   }
   std::sort(negatives.begin(), negatives.end());
   return negatives;

@@ -11,7 +11,8 @@ namespace {
 
 class MotionsAlgorithm : public RegistrationAlgorithm {
  public:
-  MotionsAlgorithm(std::string name, std::vector<Pose> motions) : name_(std::move(name)), motions_(std::move(motions)) {}
+  MotionsAlgorithm(std::string name, std::vector<Pose> motions)
+      : name_(std::move(name)), motions_(std::move(motions)) {}
 
   const std::string& name() const override { return name_; }
   bool needs_scans() const override { return false; }

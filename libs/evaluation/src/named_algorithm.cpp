@@ -22,9 +22,9 @@ double seconds_of(const std::vector<StageTime>& stages) {
 
 /// The named variants differ in whether ground is described; everything else of the description is the same.
 std::string description_key(const PaperOptions& options) {
-  return std::string(options.match_ground ? "all points" : "without ground") + ", voxel " + std::to_string(options.voxel_m) +
-         (options.voxel_point == VoxelPoint::kFirst ? " first" : " centroid") + ", normals " +
-         std::to_string(options.normals.radius_m) + ", fpfh " + std::to_string(options.fpfh.radius_m);
+  return std::string(options.match_ground ? "all points" : "without ground") + ", voxel " +
+         std::to_string(options.voxel_m) + (options.voxel_point == VoxelPoint::kFirst ? " first" : " centroid") +
+         ", normals " + std::to_string(options.normals.radius_m) + ", fpfh " + std::to_string(options.fpfh.radius_m);
 }
 
 /// The file of a frame's descriptors. Throws InputError when there is none.
@@ -45,7 +45,9 @@ class PaperAlgorithm : public RegistrationAlgorithm {
  public:
   /// `features`: folder of descriptors made elsewhere; empty: FPFH.
   PaperAlgorithm(std::string name, PaperOptions options, std::filesystem::path features)
-      : name_(std::move(name)), options_(std::move(options)), features_(std::move(features)),
+      : name_(std::move(name)),
+        options_(std::move(options)),
+        features_(std::move(features)),
         key_(features_.empty() ? description_key(options_) : "descriptors of " + features_.string()) {
     options_.refine = false;
   }

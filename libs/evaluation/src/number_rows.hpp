@@ -16,7 +16,7 @@ namespace loopmark::detail {
 /// A line of numbers of a text file, with where it stands.
 struct NumberRow {
   std::string file;
-  std::size_t line = 0;   ///< from 1, the header is line 1
+  std::size_t line = 0;  ///< from 1, the header is line 1
   std::vector<double> values;
 
   /// Throws InputError at this row.

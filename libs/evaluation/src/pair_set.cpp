@@ -173,7 +173,8 @@ std::vector<Pose> motions_of_pairs(const std::vector<RegistrationPair>& pairs, c
     by_key.erase(found);
   }
   if (!by_key.empty()) {
-    throw InputError(path.string(), "", "a motion for " + to_string(by_key.begin()->first) + ", which is not in the set",
+    throw InputError(path.string(), "",
+                     "a motion for " + to_string(by_key.begin()->first) + ", which is not in the set",
                      "the motions must be of the same set");
   }
   return ordered;

@@ -42,10 +42,9 @@ const std::vector<DomainRow>& domains() {
 }
 
 const std::vector<RefinementRow>& refinement() {
-  static const std::vector<RefinementRow> rows = {
-      {"ICP", 98.99, {80.65, 11.76, 30.29}, {0.37, 0.13, 0.33}},
-      {"BBR-F", 96.33, {86.98, 15.10, 52.84}, {0.47, 0.19, 0.66}},
-      {"sym-ICP", 67.74, {548.85, 17.68, 3544.49}, {2.31, 0.22, 10.66}}};
+  static const std::vector<RefinementRow> rows = {{"ICP", 98.99, {80.65, 11.76, 30.29}, {0.37, 0.13, 0.33}},
+                                                  {"BBR-F", 96.33, {86.98, 15.10, 52.84}, {0.47, 0.19, 0.66}},
+                                                  {"sym-ICP", 67.74, {548.85, 17.68, 3544.49}, {2.31, 0.22, 10.66}}};
   return rows;
 }
 

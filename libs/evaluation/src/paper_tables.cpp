@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* kTheirs =
     "Rows marked (paper) are the paper's own numbers: learned features (FCGF) matched, their sets and machines. Times "
-    "are means in the paper's accounting: without downsampling, features and the search for the first nearest neighbour.";
+    "are means in the paper's accounting: without downsampling, features and the search for the first nearest "
+    "neighbour.";
 
 const AlgorithmSummary* find(const std::vector<AlgorithmSummary>& summaries, const std::string& name) {
   const auto at = std::find_if(summaries.begin(), summaries.end(), [&](const auto& s) { return s.name == name; });
@@ -57,7 +58,7 @@ std::vector<std::string> all_algorithms(const std::vector<DomainResult>& results
 
 /// The layout of the 3 x 3 tables: ours first, then the paper's with its own columns.
 TextTable domain_table(const std::string& name, const std::string& caption, const std::vector<DomainResult>& results,
-                       std::string (*ours)(const AlgorithmSummary*), std::vector<double> paper::DomainRow::* theirs,
+                       std::string (*ours)(const AlgorithmSummary*), std::vector<double> paper::DomainRow::*theirs,
                        int decimals) {
   const std::vector<std::string> algorithms = all_algorithms(results);
   TextTable table{name, caption, {"Test", "Train"}, {}, kTheirs};
@@ -102,7 +103,8 @@ std::pair<std::string, std::string> without_domain(const std::string& name, cons
 
 }  // namespace
 
-std::vector<DomainResult> split_by_domain(const std::string& test, const std::string& train, const StoredResult& result) {
+std::vector<DomainResult> split_by_domain(const std::string& test, const std::string& train,
+                                          const StoredResult& result) {
   std::vector<DomainResult> domains;
   const auto domain_of = [&](const std::string& name) -> StoredResult& {
     const auto found = std::find_if(domains.begin(), domains.end(), [&](const auto& d) { return d.train == name; });
@@ -129,23 +131,27 @@ TextTable paper_evaluation_table(const StoredResult& result, bool cross_domain) 
   TextTable table{cross_domain ? "cross_domain" : "evaluation",
                   std::string(cross_domain ? "Cross-domain evaluation" : "Evaluation of registration algorithms") +
                       " on " + result.experiment.set_name,
-                  {"Algorithm", "Recall, algo. only", "Time (s)", "Recall, with ICP", "Time (s)"}, {}, kTheirs};
+                  {"Algorithm", "Recall, algo. only", "Time (s)", "Recall, with ICP", "Time (s)"},
+                  {},
+                  kTheirs};
   const auto summaries = summaries_of(result);
   for (const AlgorithmSummary& summary : summaries) {
     if (summary.name.find('+') == std::string::npos) {
       const AlgorithmSummary* refined = find(summaries, summary.name + "+icp");
-      table.rows.push_back({summary.name, share_cell(&summary), time_cell(&summary), share_cell(refined), time_cell(refined)});
+      table.rows.push_back(
+          {summary.name, share_cell(&summary), time_cell(&summary), share_cell(refined), time_cell(refined)});
     }
   }
   for (const paper::EvaluationRow& row : cross_domain ? paper::cross_domain() : paper::evaluation()) {
-    table.rows.push_back({row.algorithm + " (paper, NuScenes-Boston)", fixed(row.recall, 2) + " %", fixed(row.seconds, 3),
-                          fixed(row.recall_icp, 2) + " %", fixed(row.seconds_icp, 3)});
+    table.rows.push_back({row.algorithm + " (paper, NuScenes-Boston)", fixed(row.recall, 2) + " %",
+                          fixed(row.seconds, 3), fixed(row.recall_icp, 2) + " %", fixed(row.seconds_icp, 3)});
   }
   return table;
 }
 
 TextTable paper_matrix_table(const std::vector<DomainResult>& results) {
-  return domain_table("matrix", "Recall (%) by test and train domain", results, share_cell, &paper::DomainRow::recall, 2);
+  return domain_table("matrix", "Recall (%) by test and train domain", results, share_cell, &paper::DomainRow::recall,
+                      2);
 }
 
 TextTable paper_times_table(const std::vector<DomainResult>& results) {
@@ -154,7 +160,10 @@ TextTable paper_times_table(const std::vector<DomainResult>& results) {
 }
 
 TextTable paper_match_sizes_table(const std::vector<DomainResult>& results) {
-  TextTable table{"match_sizes", "Pair-match set sizes (means)", {"Test", "Train", "Initial", "MNN-filtered"}, {},
+  TextTable table{"match_sizes",
+                  "Pair-match set sizes (means)",
+                  {"Test", "Train", "Initial", "MNN-filtered"},
+                  {},
                   "Rows marked (paper) are the paper's own numbers, of FCGF features."};
   for (const DomainResult& domain : results) {
     const auto summaries = summaries_of(domain.result);
@@ -168,10 +177,12 @@ TextTable paper_match_sizes_table(const std::vector<DomainResult>& results) {
 }
 
 TextTable paper_refinement_table(const StoredResult& result) {
-  TextTable table{"refinement", "Refinement experiment on " + result.experiment.set_name,
+  TextTable table{"refinement",
+                  "Refinement experiment on " + result.experiment.set_name,
                   {"Algorithm", "Recall", "TE mean (cm)", "TE 50 %", "TE 95 %", "RE mean (deg)", "RE 50 %", "RE 95 %"},
-                  {}, "Over all pairs. Rows marked (paper) are the paper's own numbers, on Apollo-Southbay-Balanced from "
-                      "its coarse motions."};
+                  {},
+                  "Over all pairs. Rows marked (paper) are the paper's own numbers, on Apollo-Southbay-Balanced from "
+                  "its coarse motions."};
   for (const AlgorithmSummary& s : summaries_of(result)) {
     table.rows.push_back({s.name, percent(s.recall()), fixed(100.0 * s.te_m.mean, 2), fixed(100.0 * s.te_m.median, 2),
                           fixed(100.0 * s.te_m.p95, 2), fixed(s.re_deg.mean, 2), fixed(s.re_deg.median, 2),
@@ -189,8 +200,8 @@ TextTable paper_sets_table(const std::vector<std::pair<std::string, std::vector<
   TextTable table = set_overview(sets);
   table.note = "The paper's sets have (train / validation / test):";
   for (const paper::SetSizes& sizes : paper::set_sizes()) {
-    table.note += " " + sizes.set + " " + std::to_string(sizes.train) + " / " + std::to_string(sizes.validation) + " / " +
-                  std::to_string(sizes.test) + ";";
+    table.note += " " + sizes.set + " " + std::to_string(sizes.train) + " / " + std::to_string(sizes.validation) +
+                  " / " + std::to_string(sizes.test) + ";";
   }
   table.note.back() = '.';
   return table;
@@ -248,12 +259,16 @@ std::vector<Variant> variants_of(const StoredResult& result) {
 }
 
 TextTable paper_ablation_table(const StoredResult& result) {
-  TextTable table{"ablation", "Ablation on " + result.experiment.set_name,
-                  {"Variant", "Runs", "Recall, mean", "lowest", "highest", "Time (s), mean", "lowest", "highest"}, {},
+  TextTable table{"ablation",
+                  "Ablation on " + result.experiment.set_name,
+                  {"Variant", "Runs", "Recall, mean", "lowest", "highest", "Time (s), mean", "lowest", "highest"},
+                  {},
                   "The paper shows its ablations as figures only: PROSAC with ELC is best there, LO above GC."};
   for (const Variant& variant : variants_of(result)) {
-    const auto [slow, fast] = std::minmax_element(variant.runs.begin(), variant.runs.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
-    const auto [low, high] = std::minmax_element(variant.runs.begin(), variant.runs.end(), [](const auto& a, const auto& b) { return a.recall < b.recall; });
+    const auto [slow, fast] = std::minmax_element(variant.runs.begin(), variant.runs.end(),
+                                                  [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+    const auto [low, high] = std::minmax_element(variant.runs.begin(), variant.runs.end(),
+                                                 [](const auto& a, const auto& b) { return a.recall < b.recall; });
     table.rows.push_back({variant.name, std::to_string(variant.runs.size()), percent(variant.mean.recall),
                           percent(low->recall), percent(high->recall), fixed(variant.mean.seconds, 4),
                           fixed(slow->seconds, 4), fixed(fast->seconds, 4)});
@@ -273,14 +288,18 @@ std::vector<FailureHistogram> failure_histograms(const StoredResult& result, con
   }
   std::vector<FailureHistogram> histograms;
   for (const PairQuantity& quantity : pair_quantities()) {
-    histograms.push_back({quantity.name, quantity.edges, counts_in_bins(successes, quantity), counts_in_bins(failures, quantity)});
+    histograms.push_back(
+        {quantity.name, quantity.edges, counts_in_bins(successes, quantity), counts_in_bins(failures, quantity)});
   }
   return histograms;
 }
 
 TextTable paper_failures_table(const StoredResult& result, const std::string& algorithm) {
-  TextTable table{"failures", "Failures of " + algorithm + " on " + result.experiment.set_name,
-                  {"Quantity", "From", "To", "Successes", "Failures", "Failed"}, {}, ""};
+  TextTable table{"failures",
+                  "Failures of " + algorithm + " on " + result.experiment.set_name,
+                  {"Quantity", "From", "To", "Successes", "Failures", "Failed"},
+                  {},
+                  ""};
   for (const FailureHistogram& histogram : failure_histograms(result, algorithm)) {
     for (std::size_t i = 0; i < histogram.successes.size(); ++i) {
       const double all = static_cast<double>(histogram.successes[i] + histogram.failures[i]);

@@ -23,13 +23,15 @@ std::string identity(const std::vector<Drive>& drives, std::size_t spacing, cons
     }
     poses += "session " + std::to_string(drive.session) + '\n';
   }
-  const Json json = {{"pool", sha256_hex(poses)}, {"spacing", spacing}, {"min_overlap", options.min_overlap},
-                     {"symmetric", options.symmetric}, {"max_gap_s", options.max_gap_s}, {"seed", options.seed}};
+  const Json json = {{"pool", sha256_hex(poses)},          {"spacing", spacing},
+                     {"min_overlap", options.min_overlap}, {"symmetric", options.symmetric},
+                     {"max_gap_s", options.max_gap_s},     {"seed", options.seed}};
   return json.dump();
 }
 
 Json to_json(const RegistrationPair& pair) {
-  Json json = {pair.key.session, pair.key.source, pair.key.target, pair.key.target_session, pair.overlap, pair.overlap_symmetric};
+  Json json = {pair.key.session,        pair.key.source, pair.key.target,
+               pair.key.target_session, pair.overlap,    pair.overlap_symmetric};
   for (int i = 0; i < 12; ++i) {
     json.push_back(pair.T_target_source.matrix()(i / 4, i % 4));
   }

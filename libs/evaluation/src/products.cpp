@@ -27,8 +27,9 @@ std::string cell(const std::string& text) {
 
 std::string file_name(const std::string& algorithm) {
   std::string name = algorithm;
-  std::replace_if(name.begin(), name.end(),
-                  [](char c) { return (std::isalnum(static_cast<unsigned char>(c)) == 0) && c != '-' && c != '+'; }, '_');
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) { return (std::isalnum(static_cast<unsigned char>(c)) == 0) && c != '-' && c != '+'; }, '_');
   return name;
 }
 
@@ -38,11 +39,12 @@ std::string results_csv(const StoredResult& result) {
       "roll_deg,pitch_deg,yaw_deg,distance_m,overlap,overlap_symmetric,note\n";
   for (const Outcome& outcome : result.outcomes) {
     const PairKey& key = result.set.key(outcome.pair);
-    csv += cell(outcome.algorithm) + ',' + std::to_string(outcome.pair) + (outcome.negative ? ",negative," : ",positive,") +
-           std::to_string(key.session) + ',' + std::to_string(key.source) + ',' + std::to_string(key.target) + ',' +
-           std::to_string(key.target_session) + ',' + to_string(outcome.answer.status) +
-           (outcome.success ? ",1," : ",0,") + fixed(outcome.error.translation_m, 6) + ',' +
-           fixed(outcome.error.rotation_deg, 6) + ',' + fixed(outcome.answer.p_correct, 6);
+    csv += cell(outcome.algorithm) + ',' + std::to_string(outcome.pair) +
+           (outcome.negative ? ",negative," : ",positive,") + std::to_string(key.session) + ',' +
+           std::to_string(key.source) + ',' + std::to_string(key.target) + ',' + std::to_string(key.target_session) +
+           ',' + to_string(outcome.answer.status) + (outcome.success ? ",1," : ",0,") +
+           fixed(outcome.error.translation_m, 6) + ',' + fixed(outcome.error.rotation_deg, 6) + ',' +
+           fixed(outcome.answer.p_correct, 6);
     const RegistrationPair answer = make_pair(key, outcome.answer.T_target_source, 0.0, 0.0);
     for (const double value : answer.motion) {
       csv += ',' + fixed(value, 6);

@@ -43,7 +43,8 @@ double refine(RegistrationPair& pair, const FrameIndex& index, ReferenceRefineme
   const PointCloud target = index.load(pair.key.target_session, pair.key.target);
   const IcpOptions options;
   const IcpTarget small_target({voxel_downsampled(target, kVoxelM).points, {}}, options.max_distance_m);
-  const IcpResult result = icp({voxel_downsampled(source, kVoxelM).points, {}}, small_target, pair.T_target_source, options);
+  const IcpResult result =
+      icp({voxel_downsampled(source, kVoxelM).points, {}}, small_target, pair.T_target_source, options);
   Pose refined = result.T_target_source;
   if (how == ReferenceRefinement::kHeight) {
     refined = pair.T_target_source;

@@ -29,7 +29,8 @@ const std::vector<Method>& methods() {
     plane.metric = IcpMetric::kPointToPlane;
     IcpOptions generalized;
     generalized.metric = IcpMetric::kGeneralized;
-    return std::vector<Method>{{"icp", point}, {"sym-icp", symmetric}, {"bbr", buddies}, {"plane-icp", plane}, {"gicp", generalized}};
+    return std::vector<Method>{
+        {"icp", point}, {"sym-icp", symmetric}, {"bbr", buddies}, {"plane-icp", plane}, {"gicp", generalized}};
   }();
   return table;
 }
@@ -51,8 +52,8 @@ class RefinedAlgorithm : public RegistrationAlgorithm {
     const Surface& source = surface(*task.scans, "source", task.scans->small_source(), normals);
     const Surface& target = surface(*task.scans, "target", task.scans->small_target(), normals);
     const Stopwatch watch;
-    const IcpResult result = icp(source, IcpTarget(target, method_.options.max_distance_m), answer.T_target_source,
-                                 method_.options);
+    const IcpResult result =
+        icp(source, IcpTarget(target, method_.options.max_distance_m), answer.T_target_source, method_.options);
     const double seconds = watch.seconds();
     answer.T_target_source = result.T_target_source;
     answer.numbers.emplace_back("refined_inlier_share", result.inlier_share);
@@ -66,7 +67,8 @@ class RefinedAlgorithm : public RegistrationAlgorithm {
  private:
   static const Surface& surface(PairScans& scans, const std::string& which, const PointCloud& cloud, bool normals) {
     return scans.shared<Surface>("surface of " + which + (normals ? " with normals" : ""), [&] {
-      return Surface{cloud.points, normals ? estimate_normals(cloud.points, {}).vectors : std::vector<Eigen::Vector3f>()};
+      return Surface{cloud.points,
+                     normals ? estimate_normals(cloud.points, {}).vectors : std::vector<Eigen::Vector3f>()};
     });
   }
 

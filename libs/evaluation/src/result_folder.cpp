@@ -155,8 +155,8 @@ void add_algorithms(Experiment& all, const Experiment& more) {
       all.algorithms.push_back(more.algorithms[i]);
       all.settings.push_back(more.settings[i]);
     } else if (all.settings[static_cast<std::size_t>(place - all.algorithms.begin())] != more.settings[i]) {
-      throw InputError("two results have an algorithm " + more.algorithms[i] + " with different settings: " +
-                       more.settings[i]);
+      throw InputError("two results have an algorithm " + more.algorithms[i] +
+                       " with different settings: " + more.settings[i]);
     }
   }
 }

@@ -19,8 +19,9 @@ std::string bin_text(double low, double high) {
 }  // namespace
 
 TextTable overview_table(const Experiment& experiment, const std::vector<AlgorithmSummary>& summaries) {
-  TextTable table{"overview", "Recall at " + fixed(experiment.criterion.max_rotation_deg, 1) + " deg / " +
-                                  fixed(experiment.criterion.max_translation_m, 2) + " m on " + experiment.set_name,
+  TextTable table{"overview",
+                  "Recall at " + fixed(experiment.criterion.max_rotation_deg, 1) + " deg / " +
+                      fixed(experiment.criterion.max_translation_m, 2) + " m on " + experiment.set_name,
                   {"Algorithm", "Pairs", "Recall", "95 % interval", "TE median (m)", "RE median (deg)", "Answered",
                    "of these wrong"},
                   {},
@@ -35,8 +36,10 @@ TextTable overview_table(const Experiment& experiment, const std::vector<Algorit
 }
 
 TextTable times_table(const std::vector<AlgorithmSummary>& summaries) {
-  TextTable table{"times", "Seconds a pair",
-                  {"Algorithm", "Paper's, mean", "median", "95 %", "Whole, mean", "median", "95 %"}, {},
+  TextTable table{"times",
+                  "Seconds a pair",
+                  {"Algorithm", "Paper's, mean", "median", "95 %", "Whole, mean", "median", "95 %"},
+                  {},
                   "The paper's accounting leaves out downsampling, features and the search for the first nearest "
                   "neighbour; whole: from the raw scans to the answer."};
   for (const AlgorithmSummary& s : summaries) {
@@ -49,10 +52,12 @@ TextTable times_table(const std::vector<AlgorithmSummary>& summaries) {
 }
 
 TextTable errors_table(const std::vector<AlgorithmSummary>& summaries) {
-  TextTable table{"errors", "Errors over all pairs and over successes",
+  TextTable table{"errors",
+                  "Errors over all pairs and over successes",
                   {"Algorithm", "TE mean (cm)", "TE 50 %", "TE 95 %", "RE mean (deg)", "RE 50 %", "RE 95 %",
                    "TE mean, successes", "TE 50 %", "TE 95 %", "RE mean, successes", "RE 50 %", "RE 95 %"},
-                  {}, "A failure counts as the identity."};
+                  {},
+                  "A failure counts as the identity."};
   for (const AlgorithmSummary& s : summaries) {
     std::vector<std::string> row = {s.name};
     for (const auto& [te, re] : {std::pair{s.te_m, s.re_deg}, std::pair{s.te_success_m, s.re_success_deg}}) {
@@ -68,8 +73,8 @@ TextTable errors_table(const std::vector<AlgorithmSummary>& summaries) {
   return table;
 }
 
-TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::string& name, const std::string& caption,
-                     std::vector<RecallBin> AlgorithmSummary::* bins) {
+TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::string& name,
+                     const std::string& caption, std::vector<RecallBin> AlgorithmSummary::*bins) {
   TextTable table{name, caption, {"Bin", "Pairs"}, {}, ""};
   for (const AlgorithmSummary& s : summaries) {
     table.columns.push_back(s.name);
@@ -82,8 +87,9 @@ TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::
     std::vector<std::string> row = {bin_text(first[b].low, first[b].high), std::to_string(first[b].pairs)};
     for (const AlgorithmSummary& s : summaries) {
       const RecallBin& bin = (s.*bins)[b];
-      row.push_back(bin.pairs == 0 ? "-" : percent(bin.recall(), 1) + " (" +
-                                               range_text(wilson_interval(bin.successes, bin.pairs)) + ")");
+      row.push_back(bin.pairs == 0 ? "-"
+                                   : percent(bin.recall(), 1) + " (" +
+                                         range_text(wilson_interval(bin.successes, bin.pairs)) + ")");
     }
     table.rows.push_back(std::move(row));
   }
@@ -91,26 +97,30 @@ TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::
 }
 
 TextTable certainty_table(const std::vector<AlgorithmSummary>& summaries) {
-  TextTable table{"certainty", "What the algorithms say of their answers",
+  TextTable table{"certainty",
+                  "What the algorithms say of their answers",
                   {"Algorithm", "Answered positives", "of these wrong", "Negatives", "False accepts",
                    "False-accept rate", "95 % interval", "Average precision", "Calibration error"},
-                  {}, "A false accept is an answer to a pair that shows two different places. Average precision and "
+                  {},
+                  "A false accept is an answer to a pair that shows two different places. Average precision and "
                   "calibration count every scored answer, negatives included."};
   for (const AlgorithmSummary& s : summaries) {
     const bool negatives = s.negatives > 0;
-    table.rows.push_back({s.name, std::to_string(s.answered), std::to_string(s.answered_wrong),
-                          std::to_string(s.negatives), std::to_string(s.false_accepts),
-                          negatives ? percent(s.false_accept_rate()) : "-",
-                          negatives ? range_text(s.false_accept_interval) : "-",
-                          s.has_scores ? fixed(s.average_precision, 4) : "-",
-                          s.reliability.empty() ? "-" : fixed(s.calibration_error, 4)});
+    table.rows.push_back(
+        {s.name, std::to_string(s.answered), std::to_string(s.answered_wrong), std::to_string(s.negatives),
+         std::to_string(s.false_accepts), negatives ? percent(s.false_accept_rate()) : "-",
+         negatives ? range_text(s.false_accept_interval) : "-", s.has_scores ? fixed(s.average_precision, 4) : "-",
+         s.reliability.empty() ? "-" : fixed(s.calibration_error, 4)});
   }
   return table;
 }
 
 TextTable reliability_table_of(const std::vector<AlgorithmSummary>& summaries) {
-  TextTable table{"reliability", "Reliability: stated probability against share of right answers",
-                  {"Algorithm", "P(correct)", "Answers", "Mean P", "Right"}, {}, ""};
+  TextTable table{"reliability",
+                  "Reliability: stated probability against share of right answers",
+                  {"Algorithm", "P(correct)", "Answers", "Mean P", "Right"},
+                  {},
+                  ""};
   for (const AlgorithmSummary& s : summaries) {
     for (const ReliabilityBin& bin : s.reliability) {
       if (bin.count > 0) {
@@ -133,8 +143,11 @@ TextTable stages_table(const std::vector<AlgorithmSummary>& summaries) {
 }
 
 TextTable paired_table(const std::vector<PairedTest>& tests) {
-  TextTable table{"paired", "Paired comparison (McNemar, exact, two-sided)",
-                  {"First", "Second", "Both right", "Only first", "Only second", "Neither", "p"}, {}, ""};
+  TextTable table{"paired",
+                  "Paired comparison (McNemar, exact, two-sided)",
+                  {"First", "Second", "Both right", "Only first", "Only second", "Neither", "p"},
+                  {},
+                  ""};
   for (const PairedTest& test : tests) {
     table.rows.push_back({test.first, test.second, std::to_string(test.both), std::to_string(test.only_first),
                           std::to_string(test.only_second), std::to_string(test.neither), fixed(test.p_value, 4)});
@@ -145,11 +158,16 @@ TextTable paired_table(const std::vector<PairedTest>& tests) {
 std::vector<TextTable> result_tables(const StoredResult& result, const std::vector<AlgorithmSummary>& summaries,
                                      const std::vector<PairedTest>& tests) {
   std::vector<TextTable> tables = {
-      overview_table(result.experiment, summaries), errors_table(summaries),
+      overview_table(result.experiment, summaries),
+      errors_table(summaries),
       bins_table(summaries, "by_overlap", "Recall by symmetric overlap", &AlgorithmSummary::by_overlap),
       bins_table(summaries, "by_distance", "Recall by distance (m)", &AlgorithmSummary::by_distance),
       bins_table(summaries, "by_yaw", "Recall by absolute yaw (deg)", &AlgorithmSummary::by_yaw),
-      certainty_table(summaries), reliability_table_of(summaries), times_table(summaries), stages_table(summaries), paired_table(tests)};
+      certainty_table(summaries),
+      reliability_table_of(summaries),
+      times_table(summaries),
+      stages_table(summaries),
+      paired_table(tests)};
   std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
   return tables;
 }

@@ -45,9 +45,8 @@ class FrameMap {
         if (cell == cells_.end()) {
           continue;
         }
-        std::copy_if(cell->second.begin(), cell->second.end(), std::back_inserter(frames), [&](const FramePlace& other) {
-          return (position(other) - position(frame)).norm() <= cell_m_;
-        });
+        std::copy_if(cell->second.begin(), cell->second.end(), std::back_inserter(frames),
+                     [&](const FramePlace& other) { return (position(other) - position(frame)).norm() <= cell_m_; });
       }
     }
     return frames;
@@ -69,8 +68,9 @@ std::vector<FramePlace> revisits_of(const FramePlace& source, const FrameMap& ma
   std::vector<FramePlace> frames = map.near(source);
   const double stamp = drives[source.drive].stamps_s[source.place];
   std::erase_if(frames, [&](const FramePlace& other) {
-    return other.drive == source.drive ? std::abs(drives[other.drive].stamps_s[other.place] - stamp) <= options.max_gap_s
-                                       : !one_world;
+    return other.drive == source.drive
+               ? std::abs(drives[other.drive].stamps_s[other.place] - stamp) <= options.max_gap_s
+               : !one_world;
   });
   return frames;
 }

@@ -56,10 +56,12 @@ bool match_set_to_scans(ExperimentTask& task, const ScanLoader& load) {
     }
   }
   char text[160];
-  std::snprintf(text, sizeof text,
-                "the scans do not fit the set: symmetric overlap of %zu pairs is %.2f in the set, %.2f recomputed (medians)",
-                check.samples, check.median_stored, check.median_recomputed);
-  throw InputError(task.set_name, "", text, "is this the data set that the pairs were chosen from? --no-check goes on anyway");
+  std::snprintf(
+      text, sizeof text,
+      "the scans do not fit the set: symmetric overlap of %zu pairs is %.2f in the set, %.2f recomputed (medians)",
+      check.samples, check.median_stored, check.median_recomputed);
+  throw InputError(task.set_name, "", text,
+                   "is this the data set that the pairs were chosen from? --no-check goes on anyway");
 }
 
 }  // namespace loopmark

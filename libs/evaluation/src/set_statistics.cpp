@@ -43,9 +43,11 @@ std::vector<RegistrationPair> random_choice(std::vector<RegistrationPair> pool, 
 const std::vector<PairQuantity>& pair_quantities() {
   static const std::vector<PairQuantity> quantities = {
       {"distance (m)", {0, 5, 10, 20, 30, 40, 50, 60, 80, 120}, distance_of},
-      {"time offset (frames)", {0, 25, 50, 100, 200, 300, 400, 600, 1200},
+      {"time offset (frames)",
+       {0, 25, 50, 100, 200, 300, 400, 600, 1200},
        [](const RegistrationPair& p) { return std::abs(static_cast<double>(p.key.target - p.key.source)); }},
-      {"symmetric overlap", {0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0},
+      {"symmetric overlap",
+       {0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0},
        [](const RegistrationPair& p) { return p.overlap_symmetric; }},
       {"|roll| (deg)", {0, 0.5, 1, 2, 3, 5, 10}, [](const RegistrationPair& p) { return std::abs(p.motion[3]); }},
       {"|pitch| (deg)", {0, 0.5, 1, 2, 3, 5, 10}, [](const RegistrationPair& p) { return std::abs(p.motion[4]); }},
@@ -65,14 +67,17 @@ std::vector<std::size_t> counts_in_bins(const std::vector<RegistrationPair>& pai
 }
 
 TextTable set_overview(const std::vector<std::pair<std::string, std::vector<RegistrationPair>>>& sets) {
-  TextTable table{"sets", "Sets",
+  TextTable table{"sets",
+                  "Sets",
                   {"Set", "Pairs", "Distance median / p90 / max (m)", "|yaw| median / p90 / max (deg)",
                    "Symmetric overlap p10 / median / p90"},
-                  {}, ""};
+                  {},
+                  ""};
   for (const auto& [name, pairs] : sets) {
-    table.rows.push_back({name, std::to_string(pairs.size()), three(values_of(pairs, distance_of), 0.5, 0.9, 1.0, 1),
-                          three(values_of(pairs, yaw_of), 0.5, 0.9, 1.0, 1),
-                          three(values_of(pairs, [](const auto& p) { return p.overlap_symmetric; }), 0.1, 0.5, 0.9, 2)});
+    table.rows.push_back(
+        {name, std::to_string(pairs.size()), three(values_of(pairs, distance_of), 0.5, 0.9, 1.0, 1),
+         three(values_of(pairs, yaw_of), 0.5, 0.9, 1.0, 1),
+         three(values_of(pairs, [](const auto& p) { return p.overlap_symmetric; }), 0.1, 0.5, 0.9, 2)});
   }
   return table;
 }
@@ -83,15 +88,17 @@ TextTable strata_table(const std::vector<RegistrationPair>& pairs) {
     const auto counts = counts_in_bins(pairs, quantity);
     for (std::size_t i = 0; i < counts.size(); ++i) {
       const int decimals = quantity.edges.back() <= 10.0 ? 1 : 0;
-      table.rows.push_back({quantity.name, fixed(quantity.edges[i], decimals), fixed(quantity.edges[i + 1], decimals),
-                            std::to_string(counts[i]),
-                            percent(static_cast<double>(counts[i]) / static_cast<double>(std::max<std::size_t>(1, pairs.size())), 1)});
+      table.rows.push_back(
+          {quantity.name, fixed(quantity.edges[i], decimals), fixed(quantity.edges[i + 1], decimals),
+           std::to_string(counts[i]),
+           percent(static_cast<double>(counts[i]) / static_cast<double>(std::max<std::size_t>(1, pairs.size())), 1)});
     }
   }
   return table;
 }
 
-double motion_unevenness(const std::vector<RegistrationPair>& set, const std::vector<RegistrationPair>& pool, int axis) {
+double motion_unevenness(const std::vector<RegistrationPair>& set, const std::vector<RegistrationPair>& pool,
+                         int axis) {
   constexpr std::size_t kBins = 20;
   double low = pool.front().motion[axis];
   double high = low;
@@ -109,8 +116,11 @@ double motion_unevenness(const std::vector<RegistrationPair>& set, const std::ve
 
 TextTable evenness_table(const std::vector<RegistrationPair>& set, const std::vector<RegistrationPair>& pool,
                          std::uint64_t seed) {
-  TextTable table{"evenness", "How uneven the motions are (chi-square / degrees of freedom, 20 bins; lower is more even)",
-                  {"Axis", "This set", "Random choice from the candidates"}, {}, ""};
+  TextTable table{"evenness",
+                  "How uneven the motions are (chi-square / degrees of freedom, 20 bins; lower is more even)",
+                  {"Axis", "This set", "Random choice from the candidates"},
+                  {},
+                  ""};
   if (set.empty()) {
     return table;
   }

@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-double log_binomial(double n, double k) { return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0); }
+double log_binomial(double n, double k) {
+  return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
+}
 
 }  // namespace
 
@@ -123,8 +125,7 @@ double expected_calibration_error(const std::vector<ReliabilityBin>& table) {
 }
 
 std::vector<PrecisionRecallPoint> precision_recall(std::vector<Judged> answers, std::size_t positives) {
-  std::sort(answers.begin(), answers.end(),
-            [](const Judged& a, const Judged& b) { return a.p_correct > b.p_correct; });
+  std::sort(answers.begin(), answers.end(), [](const Judged& a, const Judged& b) { return a.p_correct > b.p_correct; });
   std::vector<PrecisionRecallPoint> curve;
   std::size_t given = 0;
   std::size_t right = 0;

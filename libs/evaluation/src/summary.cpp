@@ -32,8 +32,8 @@ std::vector<RecallBin> binned(const std::vector<Outcome>& outcomes, const std::v
 }
 
 void add_bins(AlgorithmSummary& summary, const std::vector<Outcome>& outcomes, const EvaluatedSet& set) {
-  summary.by_overlap = binned(outcomes, {0.0, 0.2, 0.35, 0.5, 0.7, 1.0},
-                              [&](std::size_t p) { return set.pairs[p].overlap_symmetric; });
+  summary.by_overlap =
+      binned(outcomes, {0.0, 0.2, 0.35, 0.5, 0.7, 1.0}, [&](std::size_t p) { return set.pairs[p].overlap_symmetric; });
   summary.by_distance = binned(outcomes, {0.0, 5.0, 10.0, 20.0, 30.0, 50.0, 75.0, 1000.0},
                                [&](std::size_t p) { return set.pairs[p].motion.head<3>().norm(); });
   summary.by_yaw = binned(outcomes, {0.0, 5.0, 20.0, 45.0, 90.0, 180.0},
@@ -73,7 +73,8 @@ class NamedValues {
     }
     values_[place->second].second.push_back(value);
   }
-  std::vector<std::pair<std::string, double>> reduced(const std::function<double(const std::vector<double>&)>& f) const {
+  std::vector<std::pair<std::string, double>> reduced(
+      const std::function<double(const std::vector<double>&)>& f) const {
     std::vector<std::pair<std::string, double>> out;
     for (const auto& [name, values] : values_) {
       out.emplace_back(name, f(values));

@@ -12,14 +12,20 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json spread(const Spread& s) { return {{"mean", number(s.mean)}, {"median", number(s.median)}, {"p95", number(s.p95)}}; }
+Json spread(const Spread& s) {
+  return {{"mean", number(s.mean)}, {"median", number(s.median)}, {"p95", number(s.p95)}};
+}
 
 Json bins(const std::vector<RecallBin>& table) {
   Json rows = Json::array();
   for (const RecallBin& bin : table) {
     const Interval interval = wilson_interval(bin.successes, bin.pairs);
-    rows.push_back({{"low", bin.low}, {"high", bin.high}, {"pairs", bin.pairs}, {"recall", bin.pairs ? Json(bin.recall()) : Json(nullptr)},
-                    {"recall_low", interval.low}, {"recall_high", interval.high}});
+    rows.push_back({{"low", bin.low},
+                    {"high", bin.high},
+                    {"pairs", bin.pairs},
+                    {"recall", bin.pairs ? Json(bin.recall()) : Json(nullptr)},
+                    {"recall_low", interval.low},
+                    {"recall_high", interval.high}});
   }
   return rows;
 }
@@ -45,7 +51,11 @@ void add_certainty(Json& json, const AlgorithmSummary& s) {
   json["expected_calibration_error"] = s.reliability.empty() ? Json(nullptr) : number(s.calibration_error);
   Json rows = Json::array();
   for (const ReliabilityBin& bin : s.reliability) {
-    rows.push_back({{"low", bin.low}, {"high", bin.high}, {"count", bin.count}, {"mean_p", bin.mean_p}, {"share_correct", bin.share_correct}});
+    rows.push_back({{"low", bin.low},
+                    {"high", bin.high},
+                    {"count", bin.count},
+                    {"mean_p", bin.mean_p},
+                    {"share_correct", bin.share_correct}});
   }
   json["reliability"] = rows;
 }
@@ -87,7 +97,10 @@ std::string summary_to_json(const Experiment& experiment, const std::vector<Algo
                             const std::vector<PairedTest>& tests) {
   Json json;
   json["format"] = "loopmark evaluation 1";
-  json["set"] = {{"name", experiment.set_name}, {"sha256", experiment.set_sha256}, {"pairs", experiment.pairs}, {"negatives", experiment.negatives}};
+  json["set"] = {{"name", experiment.set_name},
+                 {"sha256", experiment.set_sha256},
+                 {"pairs", experiment.pairs},
+                 {"negatives", experiment.negatives}};
   json["criterion"] = {{"max_rotation_deg", experiment.criterion.max_rotation_deg},
                        {"max_translation_m", experiment.criterion.max_translation_m}};
   json["settings"] = experiment.settings;
@@ -97,8 +110,13 @@ std::string summary_to_json(const Experiment& experiment, const std::vector<Algo
   }
   json["paired_tests"] = Json::array();
   for (const PairedTest& test : tests) {
-    json["paired_tests"].push_back({{"first", test.first}, {"second", test.second}, {"both", test.both}, {"only_first", test.only_first},
-                                    {"only_second", test.only_second}, {"neither", test.neither}, {"mcnemar_p", test.p_value}});
+    json["paired_tests"].push_back({{"first", test.first},
+                                    {"second", test.second},
+                                    {"both", test.both},
+                                    {"only_first", test.only_first},
+                                    {"only_second", test.only_second},
+                                    {"neither", test.neither},
+                                    {"mcnemar_p", test.p_value}});
   }
   return json.dump(2) + '\n';
 }

@@ -52,7 +52,8 @@ std::string to_markdown(const TextTable& table) {
 
 std::string to_latex(const TextTable& table) {
   constexpr std::string_view kSpecial = "%_&#$";
-  std::string text = "\\begin{table}\n\\caption{" + escaped(table.caption, kSpecial) + "}\n\\begin{center}\n\\begin{tabular}{l";
+  std::string text =
+      "\\begin{table}\n\\caption{" + escaped(table.caption, kSpecial) + "}\n\\begin{center}\n\\begin{tabular}{l";
   text += std::string(table.columns.empty() ? 0 : table.columns.size() - 1, 'r');
   text += "}\\toprule\n" + join(escaped(table.columns, kSpecial), " & ") + " \\\\\\midrule\n";
   for (const auto& row : table.rows) {
@@ -74,6 +75,8 @@ std::string fixed(double value, int decimals) {
   return text;
 }
 
-std::string percent(double share, int decimals) { return fixed(100.0 * share, decimals) + (std::isnan(share) ? "" : " %"); }
+std::string percent(double share, int decimals) {
+  return fixed(100.0 * share, decimals) + (std::isnan(share) ? "" : " %");
+}
 
 }  // namespace loopmark

@@ -12,9 +12,9 @@ namespace loopmark {
 
 /// What a record file holds.
 struct RecordLines {
-  std::vector<std::string> lines;   ///< the payloads, in the order of writing
-  std::size_t whole_bytes = 0;      ///< length of the whole records
-  bool torn = false;                ///< a half-written record follows
+  std::vector<std::string> lines;  ///< the payloads, in the order of writing
+  std::size_t whole_bytes = 0;     ///< length of the whole records
+  bool torn = false;               ///< a half-written record follows
 };
 
 /// Reads the records: lines "CRC32 PAYLOAD". A last line that is cut off or whose checksum is wrong is what a kill

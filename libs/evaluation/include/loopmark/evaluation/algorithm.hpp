@@ -42,10 +42,10 @@ class PairScans {
 
 /// One pair as an algorithm gets it.
 struct PairTask {
-  std::size_t index = 0;                          ///< place in the set; negatives follow behind the positives
+  std::size_t index = 0;  ///< place in the set; negatives follow behind the positives
   PairKey key;
-  PairScans* scans = nullptr;                     ///< null where no algorithm needs scans; perturbed already
-  const Pose* perturbation = nullptr;             ///< by which the source was moved; null: it was not
+  PairScans* scans = nullptr;                              ///< null where no algorithm needs scans; perturbed already
+  const Pose* perturbation = nullptr;                      ///< by which the source was moved; null: it was not
   const std::map<std::string, Answer>* earlier = nullptr;  ///< answers to this pair of the algorithms before
 };
 

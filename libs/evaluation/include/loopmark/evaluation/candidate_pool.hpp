@@ -19,9 +19,9 @@ namespace loopmark {
 struct Drive {
   int session = 0;
   std::string name;
-  std::vector<int> frames;          ///< the numbers that the data set gives to the frames, in order
-  std::vector<double> stamps_s;     ///< as long
-  std::vector<Pose> T_world_cloud;  ///< as long: reference poses
+  std::vector<int> frames;                            ///< the numbers that the data set gives to the frames, in order
+  std::vector<double> stamps_s;                       ///< as long
+  std::vector<Pose> T_world_cloud;                    ///< as long: reference poses
   std::function<PointCloud(std::size_t place)> load;  ///< thread-safe
 
   std::size_t size() const { return frames.size(); }
@@ -32,8 +32,8 @@ void check(const Drive& drive);
 
 /// What the pool has cost.
 struct PoolCost {
-  std::size_t overlaps = 0;   ///< overlaps computed in this run
-  std::size_t scans = 0;      ///< scans read in this run
+  std::size_t overlaps = 0;  ///< overlaps computed in this run
+  std::size_t scans = 0;     ///< scans read in this run
   double seconds = 0.0;
 };
 

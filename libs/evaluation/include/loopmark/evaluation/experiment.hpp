@@ -18,11 +18,11 @@ using ScanLoader = std::function<PointCloud(int session, int frame)>;
 /// What is to be run.
 struct ExperimentTask {
   EvaluatedSet set;
-  std::vector<Pose> perturbations;    ///< of the source points, one a pair, or none; set.pairs includes them already
+  std::vector<Pose> perturbations;  ///< of the source points, one a pair, or none; set.pairs includes them already
   std::string set_name;
   SuccessCriterion criterion;
   Shard shard;
-  std::size_t pairs_at_once = 1;      ///< pairs worked on at the same time
+  std::size_t pairs_at_once = 1;  ///< pairs worked on at the same time
 };
 
 /// The identity of the task, for experiment.json.

@@ -12,10 +12,10 @@
 namespace loopmark {
 
 struct ExternalOptions {
-  std::string command;                 ///< run by /bin/sh -c
-  double time_limit_s = 30.0;          ///< for one pair
-  double start_limit_s = 60.0;         ///< until the program says that it is ready
-  std::filesystem::path scratch;       ///< folder for the clouds; empty: the system's
+  std::string command;            ///< run by /bin/sh -c
+  double time_limit_s = 30.0;     ///< for one pair
+  double start_limit_s = 60.0;    ///< until the program says that it is ready
+  std::filesystem::path scratch;  ///< folder for the clouds; empty: the system's
 };
 
 /// Starts the program once to see that it speaks the protocol; throws InputError when it does not. A pair on which

@@ -30,11 +30,11 @@ void check(const SuccessCriterion& criterion);
 
 /// How a try ended.
 enum class AnswerStatus {
-  kAnswered,    ///< a motion that the algorithm stands for
-  kAbstained,   ///< a motion, but the algorithm says that it does not know
-  kFailed,      ///< no motion: the algorithm said so
-  kTimeLimit,   ///< no motion within the time limit
-  kCrashed,     ///< the program died or spoke nonsense
+  kAnswered,   ///< a motion that the algorithm stands for
+  kAbstained,  ///< a motion, but the algorithm says that it does not know
+  kFailed,     ///< no motion: the algorithm said so
+  kTimeLimit,  ///< no motion within the time limit
+  kCrashed,    ///< the program died or spoke nonsense
 };
 const char* to_string(AnswerStatus status);
 AnswerStatus answer_status_from(const std::string& name);
@@ -44,10 +44,11 @@ struct Answer {
   Pose T_target_source = Pose::Identity();
   AnswerStatus status = AnswerStatus::kAnswered;
   double p_correct = std::numeric_limits<double>::quiet_NaN();  ///< or the algorithm's score; NaN: it gives none
-  std::string note;                 ///< the reason of a failure; the source of the hypothesis
-  Evidence numbers;                 ///< counts and evidence by name ("matches_initial", "matches_mutual", ...)
-  std::vector<StageTime> timings;   ///< seconds of each stage
-  double paper_seconds = std::numeric_limits<double>::quiet_NaN();  ///< the paper's accounting: filtering, estimation, ICP
+  std::string note;                ///< the reason of a failure; the source of the hypothesis
+  Evidence numbers;                ///< counts and evidence by name ("matches_initial", "matches_mutual", ...)
+  std::vector<StageTime> timings;  ///< seconds of each stage
+  double paper_seconds =
+      std::numeric_limits<double>::quiet_NaN();  ///< the paper's accounting: filtering, estimation, ICP
   double total_seconds = std::numeric_limits<double>::quiet_NaN();  ///< raw scans to answer
 
   bool has_motion() const { return status == AnswerStatus::kAnswered || status == AnswerStatus::kAbstained; }
@@ -55,12 +56,12 @@ struct Answer {
 
 /// An answer judged against the truth.
 struct Outcome {
-  std::size_t pair = 0;     ///< place in the set; negatives follow behind the positives
+  std::size_t pair = 0;  ///< place in the set; negatives follow behind the positives
   std::string algorithm;
   Answer answer;
-  bool negative = false;    ///< the pair shows two different places: no motion is right
-  PoseError error;          ///< TE and RE; NaN for negatives
-  bool success = false;     ///< a motion within the criterion, whether or not the algorithm stood for it
+  bool negative = false;  ///< the pair shows two different places: no motion is right
+  PoseError error;        ///< TE and RE; NaN for negatives
+  bool success = false;   ///< a motion within the criterion, whether or not the algorithm stood for it
 };
 
 /// Judges an answer of a positive pair.

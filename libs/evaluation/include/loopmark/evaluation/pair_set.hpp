@@ -13,10 +13,10 @@ namespace loopmark {
 
 /// Which two scans: the numbers that the data set gives to sessions and frames.
 struct PairKey {
-  int session = 0;          ///< drive of the source
-  int source = 0;           ///< frame of the source
-  int target = 0;           ///< frame of the target
-  int target_session = 0;   ///< drive of the target; the same as `session` in the published sets
+  int session = 0;         ///< drive of the source
+  int source = 0;          ///< frame of the source
+  int target = 0;          ///< frame of the target
+  int target_session = 0;  ///< drive of the target; the same as `session` in the published sets
 
   auto operator<=>(const PairKey&) const = default;
 };
@@ -27,10 +27,10 @@ std::string to_string(const PairKey& key);
 /// One row of a set: the motion, and how hard it is.
 struct RegistrationPair {
   PairKey key;
-  Pose T_target_source = Pose::Identity();       ///< exactly the numbers of the file
-  Vector6d motion = Vector6d::Zero();            ///< x y z (m), roll pitch yaw (deg) of T_target_source
-  double overlap = 0.0;                          ///< share of the source's voxels that the target sees
-  double overlap_symmetric = 0.0;                ///< share of the larger cloud's voxels (paper, Sec. 3)
+  Pose T_target_source = Pose::Identity();  ///< exactly the numbers of the file
+  Vector6d motion = Vector6d::Zero();       ///< x y z (m), roll pitch yaw (deg) of T_target_source
+  double overlap = 0.0;                     ///< share of the source's voxels that the target sees
+  double overlap_symmetric = 0.0;           ///< share of the larger cloud's voxels (paper, Sec. 3)
 };
 
 /// Fills `motion` from the matrix.

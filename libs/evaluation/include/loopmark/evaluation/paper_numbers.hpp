@@ -14,16 +14,16 @@ namespace loopmark::paper {
 /// Tables "Evaluation of Registration Algorithms" and "Cross-Domain Evaluation" (tested on NuScenes-Boston).
 struct EvaluationRow {
   std::string algorithm;
-  double recall, seconds;             ///< algorithm only; recall in %
-  double recall_icp, seconds_icp;     ///< with ICP
+  double recall, seconds;          ///< algorithm only; recall in %
+  double recall_icp, seconds_icp;  ///< with ICP
 };
-const std::vector<EvaluationRow>& evaluation();     ///< trained on Boston
-const std::vector<EvaluationRow>& cross_domain();   ///< trained on Apollo
+const std::vector<EvaluationRow>& evaluation();    ///< trained on Boston
+const std::vector<EvaluationRow>& cross_domain();  ///< trained on Apollo
 
 /// Tables "All Registration Sets Cross-Domain", its running times, and "Pair-Match Set Sizes".
 struct DomainRow {
   std::string test, train;
-  std::vector<double> recall;    ///< %, in the order of domain_algorithms()
+  std::vector<double> recall;  ///< %, in the order of domain_algorithms()
   std::vector<double> seconds;
   double matches, mutual_matches;
 };
@@ -33,8 +33,8 @@ const std::vector<DomainRow>& domains();
 /// Table "Refinement Experiment" (Apollo-Southbay).
 struct RefinementRow {
   std::string algorithm;
-  double recall;                      ///< %
-  double te_cm[3], re_deg[3];         ///< mean, median, 95th percentile, over all pairs
+  double recall;               ///< %
+  double te_cm[3], re_deg[3];  ///< mean, median, 95th percentile, over all pairs
 };
 const std::vector<RefinementRow>& refinement();
 

@@ -19,7 +19,8 @@ struct DomainResult {
 
 /// One result for each train domain: algorithms VARIANT@TRAIN (descriptors of that domain) become VARIANT of TRAIN;
 /// those without stay together under `train`.
-std::vector<DomainResult> split_by_domain(const std::string& test, const std::string& train, const StoredResult& result);
+std::vector<DomainResult> split_by_domain(const std::string& test, const std::string& train,
+                                          const StoredResult& result);
 
 /// Recall and mean seconds of each algorithm alone and with ICP ("Evaluation of Registration Algorithms"; cross:
 /// "Cross-Domain Evaluation"). An algorithm X stands in one row with X+icp.
@@ -40,8 +41,8 @@ TextTable paper_sets_table(const std::vector<std::pair<std::string, std::vector<
 
 /// One run of a repeated experiment in the plane of time and recall.
 struct RunPoint {
-  double seconds = 0.0;   ///< mean, the paper's accounting
-  double recall = 0.0;    ///< share
+  double seconds = 0.0;  ///< mean, the paper's accounting
+  double recall = 0.0;   ///< share
 };
 
 /// All repeats of one variant: algorithms whose names agree up to "#N".
@@ -49,7 +50,7 @@ struct Variant {
   std::string name;
   std::vector<RunPoint> runs;
   RunPoint mean;
-  std::vector<RunPoint> hull;   ///< convex hull, counter-clockwise
+  std::vector<RunPoint> hull;  ///< convex hull, counter-clockwise
 };
 std::vector<Variant> variants_of(const StoredResult& result);
 

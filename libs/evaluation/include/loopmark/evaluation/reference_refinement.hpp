@@ -17,7 +17,7 @@ enum class ReferenceRefinement {
 
 struct RefinementReport {
   std::size_t refined = 0;
-  std::size_t kept = 0;             ///< ICP moved too far or found too little: the poses' motion stays
+  std::size_t kept = 0;  ///< ICP moved too far or found too little: the poses' motion stays
   double median_shift_m = 0.0;
 };
 

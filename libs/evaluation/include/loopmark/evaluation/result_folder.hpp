@@ -18,21 +18,21 @@ namespace loopmark {
 
 /// What makes results comparable: kept as experiment.json.
 struct Experiment {
-  std::string set_name;        ///< the set's file, for tables
-  std::string set_sha256;      ///< of the pairs as evaluated, in the published format
-  std::string extra_sha256;    ///< of negatives and perturbations
+  std::string set_name;      ///< the set's file, for tables
+  std::string set_sha256;    ///< of the pairs as evaluated, in the published format
+  std::string extra_sha256;  ///< of negatives and perturbations
   std::size_t pairs = 0;
   std::size_t negatives = 0;
   SuccessCriterion criterion;
-  std::vector<std::string> algorithms;   ///< names, in the order of the tables
-  std::vector<std::string> settings;     ///< of each algorithm: what changes its answers, as text
+  std::vector<std::string> algorithms;  ///< names, in the order of the tables
+  std::vector<std::string> settings;    ///< of each algorithm: what changes its answers, as text
 
   bool same_task(const Experiment& other) const;
 };
 
 /// Part k of N of the pairs: those whose place in the set leaves the rest k - 1 when divided by N.
 struct Shard {
-  std::size_t index = 1;   ///< from 1
+  std::size_t index = 1;  ///< from 1
   std::size_t count = 1;
   bool holds(std::size_t pair) const { return pair % count == index - 1; }
 };
@@ -43,14 +43,15 @@ Shard shard_from(const std::string& text);
 struct StoredResult {
   Experiment experiment;
   EvaluatedSet set;
-  std::vector<Outcome> outcomes;   ///< by algorithm (in the order of the experiment), then by pair
+  std::vector<Outcome> outcomes;  ///< by algorithm (in the order of the experiment), then by pair
 };
 
 /// Records outcomes of one shard into a result folder, as they come and from any thread.
 class OutcomeWriter {
  public:
   /// Makes the folder, or goes on with it. Throws InputError when it holds another experiment.
-  OutcomeWriter(const std::filesystem::path& folder, const Experiment& experiment, const EvaluatedSet& set, Shard shard);
+  OutcomeWriter(const std::filesystem::path& folder, const Experiment& experiment, const EvaluatedSet& set,
+                Shard shard);
 
   bool done(const std::string& algorithm, std::size_t pair) const;
   /// Appends one outcome: first its times, then what counts.

@@ -17,8 +17,8 @@ TextTable times_table(const std::vector<AlgorithmSummary>& summaries);
 /// Mean, median and 95th percentile of TE and RE, over all pairs and over successes.
 TextTable errors_table(const std::vector<AlgorithmSummary>& summaries);
 /// Recall by bins of one quantity.
-TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::string& name, const std::string& caption,
-                     std::vector<RecallBin> AlgorithmSummary::* bins);
+TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::string& name,
+                     const std::string& caption, std::vector<RecallBin> AlgorithmSummary::*bins);
 /// What the algorithms say of their own answers; false accepts among the negatives.
 TextTable certainty_table(const std::vector<AlgorithmSummary>& summaries);
 /// Stated probability against share of right answers.

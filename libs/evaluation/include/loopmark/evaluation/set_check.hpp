@@ -10,9 +10,9 @@ namespace loopmark {
 /// Overlaps of a few pairs as the set has them and as the scans give them.
 struct SetCheck {
   std::size_t samples = 0;
-  double median_stored = 0.0;       ///< symmetric overlap in the set
-  double median_recomputed = 0.0;   ///< of the scans at the set's motions
-  double median_difference = 0.0;   ///< of the absolute differences
+  double median_stored = 0.0;      ///< symmetric overlap in the set
+  double median_recomputed = 0.0;  ///< of the scans at the set's motions
+  double median_difference = 0.0;  ///< of the absolute differences
   bool agrees() const { return samples == 0 || median_difference < 0.15; }
 };
 

@@ -14,8 +14,8 @@ namespace loopmark {
 
 /// A quantity of pairs and the bins it is counted in.
 struct PairQuantity {
-  std::string name;                 ///< "distance (m)"
-  std::vector<double> edges;        ///< values beyond the last count in the last bin
+  std::string name;           ///< "distance (m)"
+  std::vector<double> edges;  ///< values beyond the last count in the last bin
   std::function<double(const RegistrationPair&)> value;
 };
 

@@ -36,21 +36,21 @@ struct AlgorithmSummary {
   std::string name;
   std::size_t pairs = 0;
   std::size_t successes = 0;
-  Interval recall_interval;           ///< Wilson, 95 %
-  std::size_t answered = 0;           ///< positives that it stood for
-  std::size_t answered_wrong = 0;     ///< of these, the wrong ones
-  std::size_t failed = 0;             ///< no motion: failure, time limit, crash
-  Spread te_m, re_deg;                ///< over all pairs
+  Interval recall_interval;        ///< Wilson, 95 %
+  std::size_t answered = 0;        ///< positives that it stood for
+  std::size_t answered_wrong = 0;  ///< of these, the wrong ones
+  std::size_t failed = 0;          ///< no motion: failure, time limit, crash
+  Spread te_m, re_deg;             ///< over all pairs
   Spread te_success_m, re_success_deg;
-  Interval te_median_interval_m;      ///< bootstrap, 95 %
+  Interval te_median_interval_m;  ///< bootstrap, 95 %
   Interval re_median_interval_deg;
   Spread paper_seconds, total_seconds;
-  std::vector<std::pair<std::string, double>> stage_medians_s;   ///< median seconds of each stage
-  std::vector<std::pair<std::string, double>> number_means;      ///< mean of each number of the answers
+  std::vector<std::pair<std::string, double>> stage_medians_s;  ///< median seconds of each stage
+  std::vector<std::pair<std::string, double>> number_means;     ///< mean of each number of the answers
   std::size_t negatives = 0;
-  std::size_t false_accepts = 0;      ///< negatives that it stood for
+  std::size_t false_accepts = 0;  ///< negatives that it stood for
   Interval false_accept_interval;
-  bool has_scores = false;            ///< it gives P(correct) or a score
+  bool has_scores = false;  ///< it gives P(correct) or a score
   std::vector<ReliabilityBin> reliability;
   double calibration_error = 0.0;
   std::vector<PrecisionRecallPoint> precision_recall;
@@ -76,7 +76,7 @@ std::vector<AlgorithmSummary> summarise_all(const std::vector<Outcome>& outcomes
 struct PairedTest {
   std::string first, second;
   std::size_t both = 0, only_first = 0, only_second = 0, neither = 0;
-  double p_value = 1.0;   ///< McNemar, exact, two-sided
+  double p_value = 1.0;  ///< McNemar, exact, two-sided
 };
 PairedTest paired_test(const std::vector<Outcome>& outcomes, const std::string& first, const std::string& second);
 

@@ -11,11 +11,11 @@ namespace loopmark {
 /// A table with a caption; every row has as many cells as there are columns. The first column is aligned left,
 /// the others right.
 struct TextTable {
-  std::string name;      ///< file name without ending
+  std::string name;  ///< file name without ending
   std::string caption;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::string note;      ///< below the table: what differs, how it was measured
+  std::string note;  ///< below the table: what differs, how it was measured
 };
 
 std::string to_markdown(const TextTable& table);
