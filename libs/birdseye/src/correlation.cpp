@@ -3,6 +3,7 @@
 #include "loopmark/birdseye/correlation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,7 +14,8 @@ namespace loopmark::birdseye {
 namespace {
 
 constexpr std::size_t kBlock = 8;  // cells; one peak a block
-constexpr std::size_t kPeaksPerSurface = 4;
+constexpr std::size_t kPeaksPerSurface = 12;
+constexpr float kFullBand = 100.0F;  // cells; a band of so many counts half
 constexpr float kSmallPower = 1e-3F;  // keeps empty frequencies from dividing by zero
 
 /// Gaussian smoothing as one factor per frequency; the mean is removed.
@@ -35,35 +37,53 @@ std::vector<float> smoothing(const CorrelationOptions& options) {
   return gain;
 }
 
+std::size_t cells_in_band(const std::vector<StructureCell>& cells, std::size_t band) {
+  return static_cast<std::size_t>(
+      std::count_if(cells.begin(), cells.end(), [&](const StructureCell& c) { return (c.bands >> band & 1U) != 0; }));
+}
+
+/// Whitening gives every band the same energy; a band of a few cells must not speak as loud as a full one.
+float band_weight(const std::vector<StructureCell>& source, const std::vector<StructureCell>& target,
+                  std::size_t band) {
+  const auto cells = static_cast<float>(std::min(cells_in_band(source, band), cells_in_band(target, band)));
+  return cells / (cells + kFullBand);
+}
+
 /// The surfaces of one correlation run: what is constant over the yaws.
 class Correlator {
  public:
-  Correlator(const std::vector<StructureCell>& target, const CorrelationOptions& options)
+  Correlator(const std::vector<StructureCell>& source, const std::vector<StructureCell>& target,
+             const CorrelationOptions& options)
       : options_(options), fft_(options.side), gain_(smoothing(options)), targets_(kBands, ComplexGrid(options.side)) {
     for (std::size_t band = 0; band < kBands; ++band) {
       ComplexGrid& spectrum = targets_[band];
       draw(target, 0.0, band, spectrum.re);
       fft_.forward(spectrum);
+      const float weight = band_weight(source, target, band);
       for (std::size_t k = 0; k < gain_.size(); ++k) {
-        const float scale = gain_[k] * whitening(spectrum.re[k], spectrum.im[k]);
+        const float scale = weight * gain_[k] * whitening(spectrum.re[k], spectrum.im[k]);
         spectrum.re[k] *= scale;
         spectrum.im[k] *= scale;
       }
     }
   }
 
-  /// The correlation surfaces of two yaws at once: the first in the real part, the second in the imaginary part.
-  ComplexGrid surfaces(const std::vector<StructureCell>& source, double yaw_a, double yaw_b) const {
-    ComplexGrid sum(options_.side);
+  /// The correlation surfaces of four yaws at once: a and b in the real and the imaginary part of the first grid, a + pi
+  /// and b + pi in those of the second. Turning an image by pi conjugates its spectrum, which is drawn only once.
+  std::array<ComplexGrid, 2> surfaces(const std::vector<StructureCell>& source, double yaw_a, double yaw_b) const {
+    std::array<ComplexGrid, 2> sums = {ComplexGrid(options_.side), ComplexGrid(options_.side)};
+    ComplexGrid grid(options_.side);
     for (std::size_t band = 0; band < kBands; ++band) {
-      ComplexGrid grid(options_.side);
+      std::fill(grid.re.begin(), grid.re.end(), 0.0F);
+      std::fill(grid.im.begin(), grid.im.end(), 0.0F);
       draw(source, yaw_a, band, grid.re);
       draw(source, yaw_b, band, grid.im);
       fft_.forward(grid);
-      multiply(grid, targets_[band], sum);
+      multiply(grid, targets_[band], sums);
     }
-    fft_.inverse(sum);
-    return sum;
+    fft_.inverse(sums[0]);
+    fft_.inverse(sums[1]);
+    return sums;
   }
 
  private:
@@ -98,7 +118,7 @@ class Correlator {
   }
 
   /// Parts the two real images' spectra, whitens them and multiplies their conjugates with the target's.
-  void multiply(const ComplexGrid& grid, const ComplexGrid& target, ComplexGrid& sum) const {
+  void multiply(const ComplexGrid& grid, const ComplexGrid& target, std::array<ComplexGrid, 2>& sums) const {
     const std::size_t side = options_.side;
     for (std::size_t y = 0; y < side; ++y) {
       const std::size_t my = (side - y) % side;
@@ -108,13 +128,13 @@ class Correlator {
         if (m < k) {
           continue;
         }
-        multiply_pair(grid, target, k, m, sum);
+        multiply_pair(grid, target, k, m, sums);
       }
     }
   }
 
   void multiply_pair(const ComplexGrid& z, const ComplexGrid& target, std::size_t k, std::size_t m,
-                     ComplexGrid& sum) const {
+                     std::array<ComplexGrid, 2>& sums) const {
     // A = (Z[k] + conj Z[m]) / 2, B = (Z[k] - conj Z[m]) / 2i; A[m] = conj A[k], B[m] = conj B[k].
     const float a_re = 0.5F * (z.re[k] + z.re[m]);
     const float a_im = 0.5F * (z.im[k] - z.im[m]);
@@ -124,12 +144,21 @@ class Correlator {
     const float wb = whitening(b_re, b_im);
     const float t_re = target.re[k];
     const float t_im = target.im[k];
-    // P = T conj(A) wa, Q = T conj(B) wb.
-    const float p_re = wa * (t_re * a_re + t_im * a_im);
-    const float p_im = wa * (t_im * a_re - t_re * a_im);
-    const float q_re = wb * (t_re * b_re + t_im * b_im);
-    const float q_im = wb * (t_im * b_re - t_re * b_im);
-    // Z[k] = P + iQ; at m both are conjugated.
+    // T conj(A) and T A share their products; likewise for B.
+    const float a_rr = wa * t_re * a_re;
+    const float a_ii = wa * t_im * a_im;
+    const float a_ir = wa * t_im * a_re;
+    const float a_ri = wa * t_re * a_im;
+    const float b_rr = wb * t_re * b_re;
+    const float b_ii = wb * t_im * b_im;
+    const float b_ir = wb * t_im * b_re;
+    const float b_ri = wb * t_re * b_im;
+    add(sums[0], k, m, a_rr + a_ii, a_ir - a_ri, b_rr + b_ii, b_ir - b_ri);
+    add(sums[1], k, m, a_rr - a_ii, a_ir + a_ri, b_rr - b_ii, b_ir + b_ri);
+  }
+
+  /// Adds the spectrum P + iQ of the packed surfaces at k, and at -k, where P and Q are conjugated.
+  static void add(ComplexGrid& sum, std::size_t k, std::size_t m, float p_re, float p_im, float q_re, float q_im) {
     sum.re[k] += p_re - q_im;
     sum.im[k] += p_im + q_re;
     if (m != k) {
@@ -174,27 +203,32 @@ std::vector<Peak> highest(const std::vector<float>& surface, std::size_t side) {
   return peaks;
 }
 
+/// Root mean square; eight running sums, so that the compiler may use vectors.
 double spread(const std::vector<float>& surface) {
-  double squares = 0.0;
-  for (const float value : surface) {
-    squares += static_cast<double>(value) * static_cast<double>(value);
+  std::array<float, 8> squares{};
+  for (std::size_t i = 0; i < surface.size(); i += 8) {
+    for (std::size_t j = 0; j < 8; ++j) {
+      squares[j] += surface[i + j] * surface[i + j];
+    }
   }
-  return std::sqrt(squares / static_cast<double>(surface.size())) + 1e-12;
+  double sum = 0.0;
+  for (const float part : squares) {
+    sum += static_cast<double>(part);
+  }
+  return std::sqrt(sum / static_cast<double>(surface.size())) + 1e-12;
 }
 
-std::vector<PlanarHypothesis> hypotheses_of(const std::vector<float>& surface, double yaw,
-                                            const CorrelationOptions& options) {
+void append_peaks(const std::vector<float>& surface, double yaw, const CorrelationOptions& options,
+                  std::vector<PlanarHypothesis>& found) {
   const auto side = static_cast<double>(options.side);
   const auto metres = [&](std::size_t cell) {
     const auto c = static_cast<double>(cell);
     return (c < side / 2.0 ? c : c - side) * options.cell_m;
   };
-  std::vector<PlanarHypothesis> found;
   const double sigma = spread(surface);
   for (const Peak& peak : highest(surface, options.side)) {
     found.push_back({yaw, metres(peak.x), metres(peak.y), static_cast<double>(peak.value) / sigma});
   }
-  return found;
 }
 
 double turn_between(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * std::numbers::pi)); }
@@ -224,16 +258,19 @@ std::vector<PlanarHypothesis> correlate(const std::vector<StructureCell>& source
   if (source.empty() || target.empty()) {
     return {};
   }
-  const Correlator correlator(target, options);
-  const auto pairs = static_cast<std::size_t>(std::ceil(180.0 / options.yaw_step_deg));
-  const double step = std::numbers::pi / static_cast<double>(pairs);
-  std::vector<std::vector<PlanarHypothesis>> found(pairs);
-  parallel_for(pairs, [&](std::size_t i) {
-    const double yaw = static_cast<double>(i) * step;
-    const ComplexGrid surfaces = correlator.surfaces(source, yaw, yaw + std::numbers::pi);
-    found[i] = hypotheses_of(surfaces.re, yaw, options);
-    const auto opposite = hypotheses_of(surfaces.im, yaw + std::numbers::pi, options);
-    found[i].insert(found[i].end(), opposite.begin(), opposite.end());
+  const Correlator correlator(source, target, options);
+  const auto groups = static_cast<std::size_t>(std::ceil(90.0 / options.yaw_step_deg));
+  const double step = std::numbers::pi / static_cast<double>(2 * groups);
+  std::vector<std::vector<PlanarHypothesis>> found(groups);
+  parallel_for(groups, [&](std::size_t i) {
+    const double yaw_a = static_cast<double>(2 * i) * step;
+    const double yaw_b = yaw_a + step;
+    const auto surfaces = correlator.surfaces(source, yaw_a, yaw_b);
+    for (std::size_t half = 0; half < 2; ++half) {
+      const double turn = half == 0 ? 0.0 : std::numbers::pi;
+      append_peaks(surfaces[half].re, yaw_a + turn, options, found[i]);
+      append_peaks(surfaces[half].im, yaw_b + turn, options, found[i]);
+    }
   });
   std::vector<PlanarHypothesis> all;
   for (const auto& part : found) {

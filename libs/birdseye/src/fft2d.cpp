@@ -111,9 +111,13 @@ Fft2d::Fft2d(std::size_t side) : side_(side), cosines_(side), sines_(side) {
 
 void Fft2d::transform(std::vector<float>& re, std::vector<float>& im) const {
   const std::size_t length = kWidth * side_;
-  std::vector<float> work(4 * length);
-  std::vector<float> out_re(re.size());
-  std::vector<float> out_im(im.size());
+  // Kept by each thread: allocating and clearing them took a tenth of the time.
+  thread_local std::vector<float> work;
+  thread_local std::vector<float> out_re;
+  thread_local std::vector<float> out_im;
+  work.resize(4 * length);
+  out_re.resize(re.size());
+  out_im.resize(im.size());
   for (int axis = 0; axis < 2; ++axis) {
     for (std::size_t column = 0; column < side_; column += kWidth) {
       Bundle x{work.data(), work.data() + length};

@@ -76,23 +76,39 @@ Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target
   return result;
 }
 
+namespace {
+
+/// Appends `count` patches of `from` (at most all) at even steps.
+void take_evenly(const std::vector<const Patch*>& from, std::size_t count, std::vector<Patch>& to) {
+  count = std::min(count, from.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    to.push_back(*from[i * from.size() / count]);
+  }
+}
+
+}  // namespace
+
 std::vector<Patch> sampled(const std::vector<Patch>& patches, std::size_t count) {
   std::vector<const Patch*> structure;
   std::vector<const Patch*> ground;
   for (const Patch& patch : patches) {
     (patch.height > kStructureHeight ? structure : ground).push_back(&patch);
   }
-  const std::size_t wanted = std::max(count / 2, count - std::min(count, ground.size()));
-  const std::size_t of_structure = std::min(structure.size(), wanted);
-  const std::size_t of_ground = std::min(ground.size(), count - of_structure);
   std::vector<Patch> chosen;
-  const auto take = [&](const std::vector<const Patch*>& from, std::size_t number) {
-    for (std::size_t i = 0; i < number; ++i) {
-      chosen.push_back(*from[i * from.size() / number]);
+  take_evenly(structure, std::max(count / 2, count - std::min(count, ground.size())), chosen);
+  take_evenly(ground, count - chosen.size(), chosen);
+  return chosen;
+}
+
+std::vector<Patch> sampled_structure(const std::vector<Patch>& patches, std::size_t count) {
+  std::vector<const Patch*> structure;
+  for (const Patch& patch : patches) {
+    if (patch.height > kStructureHeight) {
+      structure.push_back(&patch);
     }
-  };
-  take(structure, of_structure);
-  take(ground, of_ground);
+  }
+  std::vector<Patch> chosen;
+  take_evenly(structure, count, chosen);
   return chosen;
 }
 

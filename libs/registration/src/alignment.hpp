@@ -22,4 +22,7 @@ Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target
 /// `count` patches at even steps through the scan, half of them structure where there is enough of it.
 std::vector<Patch> sampled(const std::vector<Patch>& patches, std::size_t count);
 
+/// Up to `count` patches of structure at even steps through the scan.
+std::vector<Patch> sampled_structure(const std::vector<Patch>& patches, std::size_t count);
+
 }  // namespace loopmark

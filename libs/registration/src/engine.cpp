@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "alignment.hpp"
@@ -17,6 +17,7 @@
 namespace loopmark {
 namespace {
 
+constexpr std::size_t kRoughPatches = 250;
 constexpr double kDistinctMetres = 1.0;
 constexpr double kDistinctDegrees = 3.0;
 constexpr double kResidualSigma = 0.05;  // metres; of one patch, for the covariance
@@ -37,9 +38,6 @@ std::vector<Candidate> hypothesize(const PreparedScan::Data& source, const Prepa
   std::vector<Candidate> candidates;
   const auto planar = birdseye::correlate(source.cells, target.cells, options.correlation);
   for (const birdseye::PlanarHypothesis& h : planar) {
-    if (candidates.size() == options.hypotheses) {
-      break;
-    }
     Candidate candidate;
     candidate.alignment.T_target_source = pose_from_yaw(h.yaw, {h.x, h.y, 0.0});
     candidate.origin = "birdseye";
@@ -47,6 +45,48 @@ std::vector<Candidate> hypothesize(const PreparedScan::Data& source, const Prepa
     candidates.push_back(candidate);
   }
   return candidates;
+}
+
+/// Share of the structure patches near a coarse patch of the target that is no ground.
+double rough_agreement(const std::vector<Patch>& structure, const PreparedScan::Data& target, const Pose& pose) {
+  const Eigen::Isometry3f T = pose.cast<float>();
+  double met = 0.0;
+  for (const Patch& patch : structure) {
+    const Patch* other = target.coarse.nearest(T * patch.mean, 0.8F);
+    met += other != nullptr && other->height > kStructureHeight ? 1.0 : 0.0;
+  }
+  return met / std::max<double>(1.0, static_cast<double>(structure.size()));
+}
+
+/// Aligns every guess roughly and keeps the best by agreement and the best by correlation, half of each.
+std::vector<Candidate> shortlist(std::vector<Candidate> candidates, const PreparedScan::Data& source,
+                                 const PreparedScan::Data& target, const EngineOptions& options) {
+  const std::vector<Patch> some = sampled(source.fine.patches(), kRoughPatches);
+  const std::vector<Patch> structure = sampled_structure(source.fine.patches(), kRoughPatches);
+  std::vector<double> agreement(candidates.size());
+  parallel_for(candidates.size(), [&](std::size_t i) {
+    Pose& T = candidates[i].alignment.T_target_source;
+    T = align_patches(some, target.coarse, T, 1.2F, 1.0, 6).T_target_source;
+    agreement[i] = rough_agreement(structure, target, T);
+  });
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return agreement[a] > agreement[b]; });
+  std::vector<bool> chosen(candidates.size(), false);
+  std::vector<Candidate> kept;
+  const auto keep = [&](std::size_t i, std::size_t limit) {
+    if (i < candidates.size() && !chosen[i] && kept.size() < limit) {
+      chosen[i] = true;
+      kept.push_back(candidates[i]);
+    }
+  };
+  for (const std::size_t i : order) {
+    keep(i, options.hypotheses / 2);
+  }
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    keep(i, options.hypotheses);
+  }
+  return kept;
 }
 
 /// Coarse, then fine alignment on patches.
@@ -109,7 +149,7 @@ std::string reason_to_abstain(const std::vector<Candidate>& candidates, const st
     return "two places fit alike";
   }
   const Features& f = candidates.front().features;
-  if (f[2] > 0.08) {
+  if (f[2] + f[4] > 0.08) {
     return "beams of one scan pass through what the other saw";
   }
   return f[0] < 0.25 ? "too little structure agrees" : "the evidence is weak";
@@ -169,7 +209,11 @@ RegistrationResult register_scans(const PreparedScan& source, const PreparedScan
                                   const EngineOptions& options) {
   Stopwatch watch;
   std::vector<Candidate> candidates = hypothesize(source.data(), target.data(), options);
-  return decide(std::move(candidates), source.data(), target.data(), options, {{"hypotheses", watch.seconds()}});
+  std::vector<StageTime> timings = {{"hypotheses", watch.seconds()}};
+  watch.reset();
+  candidates = shortlist(std::move(candidates), source.data(), target.data(), options);
+  timings.push_back({"shortlist", watch.seconds()});
+  return decide(std::move(candidates), source.data(), target.data(), options, std::move(timings));
 }
 
 RegistrationResult verify_motion(const PreparedScan& source, const PreparedScan& target, const Pose& T_target_source,

@@ -17,6 +17,8 @@ constexpr float kTight = 0.15F;       // metres
 constexpr float kPlanar = 0.5F;
 constexpr float kTestified = 60.0F;   // metres from the other sensor within which free space counts
 constexpr float kSpreadCell = 10.0F;  // metres
+constexpr float kTall = 2.2F;          // metres above the ground
+constexpr double kDoubt = 10.0;        // patches: how many it takes to believe a share
 
 /// What all viewpoints of a scan say of a point in its levelled frame: agreement outweighs conflict.
 RangeImage::Sight look_from_all(const std::vector<View>& views, const Eigen::Vector3f& point) {
@@ -39,7 +41,6 @@ RangeImage::Sight look_from_all(const std::vector<View>& views, const Eigen::Vec
 }
 
 void meet(Testimony& t, const Eigen::Vector3f& p, const Eigen::Vector3f& normal, const Patch& own, const Patch& other) {
-  t.met += 1.0;
   t.tight += std::abs(other.normal.dot(other.mean - p)) < kTight ? 1.0 : 0.0;
   if (own.planarity > kPlanar && other.planarity > kPlanar) {
     const double cosine = normal.dot(other.normal);
@@ -48,23 +49,14 @@ void meet(Testimony& t, const Eigen::Vector3f& p, const Eigen::Vector3f& normal,
   }
 }
 
-std::vector<const Patch*> structure_of(const PreparedScan::Data& scan) {
-  std::vector<const Patch*> structure;
-  for (const Patch& patch : scan.fine.patches()) {
-    if (patch.height > kStructureHeight) {
-      structure.push_back(&patch);
-    }
-  }
-  const std::size_t wanted = std::min(structure.size(), kAsked);
-  std::vector<const Patch*> chosen;
-  for (std::size_t i = 0; i < wanted; ++i) {
-    chosen.push_back(structure[i * structure.size() / wanted]);
-  }
-  return chosen;
-}
-
-/// The weaker direction's share of the structure that is met; as the scans' sizes differ, of the smaller scan.
 double share(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
+
+/// A share that starts at one half and moves away from it as patches speak.
+double believed_share(double part, double whole) { return (part + 0.5 * kDoubt) / (whole + kDoubt); }
+
+Voices sum(const Voices& a, const Voices& b) { return {a.met + b.met, a.conflict + b.conflict, a.unmet + b.unmet}; }
+
+double consistency(const Voices& v) { return believed_share(v.met, v.met + v.conflict + v.unmet); }
 
 /// How well the least constrained direction of translation is held: 0 (slides freely) to 1/3.
 double constraint(const Alignment& alignment) {
@@ -81,21 +73,23 @@ Testimony ask(const PreparedScan::Data& source, const PreparedScan::Data& target
   Testimony t;
   VoxelTable cells(256);
   std::vector<int> met_in_cell;
-  for (const Patch* patch : structure_of(source)) {
-    const Eigen::Vector3f p = T * patch->mean;
+  for (const Patch& patch : sampled_structure(source.fine.patches(), kAsked)) {
+    const Eigen::Vector3f p = T * patch.mean;
     t.structure += 1.0;
+    Voices& voices = patch.height > kTall ? t.tall : t.low;
     if (const Patch* other = target.fine.nearest(p, kMet)) {
-      meet(t, p, R * patch->normal, *patch, *other);
+      voices.met += 1.0;
+      meet(t, p, R * patch.normal, patch, *other);
       const std::uint32_t cell = cells.insert(voxel_of({p.x(), p.y(), 0.0F}, 1.0F / kSpreadCell));
       met_in_cell.resize(cells.size(), 0);
       ++met_in_cell[cell];
       continue;
     }
     const auto sight = look_from_all(target.views, p);
-    t.conflict += sight == RangeImage::Sight::kConflict ? 1.0 : 0.0;
-    t.unmet += sight == RangeImage::Sight::kAgrees ? 1.0 : 0.0;
+    voices.conflict += sight == RangeImage::Sight::kConflict ? 1.0 : 0.0;
+    voices.unmet += sight == RangeImage::Sight::kAgrees ? 1.0 : 0.0;
   }
-  t.sectors = static_cast<double>(std::count_if(met_in_cell.begin(), met_in_cell.end(), [](int n) { return n >= 5; }));
+  t.cells = static_cast<double>(std::count_if(met_in_cell.begin(), met_in_cell.end(), [](int n) { return n >= 5; }));
   return t;
 }
 
@@ -103,18 +97,21 @@ Features features_of(const PreparedScan::Data& source, const PreparedScan::Data&
                      double peak) {
   const Testimony a = ask(source, target, alignment.T_target_source);
   const Testimony b = ask(target, source, alignment.T_target_source.inverse());
-  const double met = a.met + b.met;
-  const double conflict = a.conflict + b.conflict;
-  const double agreement = 0.5 * (share(a.met, a.structure) + share(b.met, b.structure));
-  return {agreement,
-          share(met, met + conflict + a.unmet + b.unmet),
-          share(conflict, a.structure + b.structure),
-          share(a.alike + b.alike, a.planar + b.planar),
-          share(a.tight + b.tight, met),
+  const Voices low = sum(a.low, b.low);
+  const Voices tall = sum(a.tall, b.tall);
+  const double met = a.met() + b.met();
+  const double structure = a.structure + b.structure;
+  return {0.5 * (share(a.met(), a.structure) + share(b.met(), b.structure)),
+          consistency(low),
+          share(low.conflict, structure),
+          consistency(tall),
+          share(tall.conflict, structure),
+          believed_share(a.alike + b.alike, a.planar + b.planar),
+          believed_share(a.tight + b.tight, met),
           alignment.residual_m,
-          peak,
+          std::min(peak, 60.0),
           std::log1p(met),
-          std::log1p(0.5 * (a.sectors + b.sectors)),
+          std::log1p(0.5 * (a.cells + b.cells)),
           constraint(alignment)};
 }
 

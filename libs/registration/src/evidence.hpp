@@ -10,23 +10,31 @@
 
 namespace loopmark {
 
-/// Counts over both directions: structure of one scan moved into the other.
-struct Testimony {
-  double structure = 0.0;  ///< patches that stand above the ground
-  double met = 0.0;        ///< with a patch of the other scan within 0.4 m
-  double tight = 0.0;      ///< of those: within 0.15 m along the other's normal
-  double alike = 0.0;      ///< sum of (n . n')^2 over planar met patches
-  double planar = 0.0;     ///< planar met patches
-  double conflict = 0.0;   ///< where the other scan's beams passed through
-  double unmet = 0.0;      ///< seen to be there by the other's beams (same range), but no patch met
-  double sectors = 0.0;    ///< cells of a 10 m grid with at least 5 met patches
+/// What one height class of the structure of one scan, moved into the other, says.
+struct Voices {
+  double met = 0.0;       ///< patches with a patch of the other scan within 0.4 m
+  double conflict = 0.0;  ///< where the other scan's beams passed through
+  double unmet = 0.0;     ///< at a range at which the other's beams met something, but no patch near
 };
 
-constexpr std::size_t kFeatures = 10;
+/// Counts of one direction.
+struct Testimony {
+  double structure = 0.0;  ///< patches that stand above the ground
+  Voices low;              ///< up to 2.2 m above the ground: cars and people may have come and gone
+  Voices tall;             ///< higher: buildings, trunks and poles, which stay
+  double tight = 0.0;      ///< met within 0.15 m along the other's normal
+  double alike = 0.0;      ///< sum of (n . n')^2 over planar met patches
+  double planar = 0.0;     ///< planar met patches
+  double cells = 0.0;      ///< cells of a 10 m grid with at least 5 met patches
+
+  double met() const { return low.met + tall.met; }
+};
+
+constexpr std::size_t kFeatures = 12;
 using Features = std::array<double, kFeatures>;
-constexpr std::array<std::string_view, kFeatures> kFeatureNames = {"agreement", "consistency", "conflict", "normals",
-                                                                   "tightness", "residual",    "peak",     "support",
-                                                                   "spread",    "constraint"};
+constexpr std::array<std::string_view, kFeatures> kFeatureNames = {
+    "agreement", "low_consistency", "low_conflict", "tall_consistency", "tall_conflict", "normals",
+    "tightness", "residual",        "peak",         "support",          "spread",        "constraint"};
 
 /// Moves the structure of `source` by T (levelled frames) and asks the target's patches and beams.
 Testimony ask(const PreparedScan::Data& source, const PreparedScan::Data& target, const Pose& T_target_source);

@@ -4,7 +4,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "loopmark/core/parallel.hpp"
 
@@ -43,6 +46,45 @@ void for_each_neighbour(const VoxelTable& table, const Voxel& centre, const Func
   }
 }
 
+Voxel brick_voxel(const Voxel& v) { return {v.x >> 2, v.y >> 2, v.z >> 2}; }
+
+unsigned bit_in_brick(const Voxel& v) {
+  return static_cast<unsigned>((v.x & 3) | ((v.y & 3) << 2) | ((v.z & 3) << 4));
+}
+
+/// The bricks that hold voxels v - 1 to v + 1 along one axis, and which of their four layers those are.
+struct AxisSpan {
+  std::int32_t first = 0;
+  int bricks = 1;
+  std::array<unsigned, 2> bits{};  ///< four bits a brick
+};
+
+AxisSpan axis_span(std::int32_t v) {
+  AxisSpan span;
+  span.first = (v - 1) >> 2;
+  const unsigned layers = 7U << static_cast<unsigned>((v - 1) & 3);  // over two bricks
+  span.bits = {layers & 15U, layers >> 4U};
+  span.bricks = span.bits[1] != 0 ? 2 : 1;
+  return span;
+}
+
+/// For each set of layers along an axis: the bits of a brick in them. `step` is the axis' bit distance.
+constexpr std::array<std::uint64_t, 16> layer_masks(unsigned step) {
+  std::array<std::uint64_t, 16> masks{};
+  for (unsigned set = 0; set < 16; ++set) {
+    for (unsigned bit = 0; bit < 64; ++bit) {
+      if ((set >> (bit / step % 4) & 1U) != 0) {
+        masks[set] |= 1ULL << bit;
+      }
+    }
+  }
+  return masks;
+}
+
+constexpr auto kSpreadX = layer_masks(1);
+constexpr auto kSpreadY = layer_masks(4);
+constexpr auto kSpreadZ = layer_masks(16);
+
 /// Normal and planarity of the spread around a mean: planarity = (l1 - l0) / l2 of the ordered eigenvalues.
 void set_shape(Patch& patch, const Moments& m) {
   if (m.count < 5.0) {
@@ -59,12 +101,31 @@ void set_shape(Patch& patch, const Moments& m) {
 
 }  // namespace
 
-PatchMap::PatchMap(std::vector<Patch> patches, float size_m) : table_(patches.size()), size_m_(size_m) {
+PatchMap::PatchMap(std::vector<Patch> patches, float size_m) : bricks_(patches.size() / 8), size_m_(size_m) {
   const float inverse = 1.0F / size_m;
+  std::vector<std::uint32_t> brick_of(patches.size());
+  std::vector<std::uint8_t> bit_of(patches.size());
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const Voxel voxel = voxel_of(patches[i].mean, inverse);
+    brick_of[i] = bricks_.insert(brick_voxel(voxel));
+    bit_of[i] = static_cast<std::uint8_t>(bit_in_brick(voxel));
+  }
+  std::vector<std::uint32_t> order(patches.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return brick_of[a] != brick_of[b] ? brick_of[a] < brick_of[b] : bit_of[a] < bit_of[b];
+  });
+  contents_.resize(bricks_.size());
   patches_.reserve(patches.size());
-  for (const Patch& patch : patches) {
-    if (table_.insert(voxel_of(patch.mean, inverse)) == patches_.size()) {
-      patches_.push_back(patch);
+  for (const std::uint32_t i : order) {
+    Brick& brick = contents_[brick_of[i]];
+    const std::uint64_t bit = 1ULL << bit_of[i];
+    if (brick.occupied == 0) {
+      brick.first = static_cast<std::uint32_t>(patches_.size());
+    }
+    if ((brick.occupied & bit) == 0) {
+      brick.occupied |= bit;
+      patches_.push_back(patches[i]);
     }
   }
 }
@@ -72,13 +133,35 @@ PatchMap::PatchMap(std::vector<Patch> patches, float size_m) : table_(patches.si
 const Patch* PatchMap::nearest(const Eigen::Vector3f& point, float max_distance) const {
   const Patch* best = nullptr;
   float best_distance = max_distance * max_distance;
-  for_each_neighbour(table_, voxel_of(point, 1.0F / size_m_), [&](std::uint32_t i) {
-    const float distance = (patches_[i].mean - point).squaredNorm();
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = &patches_[i];
+  const Voxel centre = voxel_of(point, 1.0F / size_m_);
+  const auto search_brick = [&](const Voxel& brick_at, std::uint64_t wanted) {
+    const std::uint32_t found = bricks_.find(brick_at);
+    if (found == VoxelTable::kNone) {
+      return;
     }
-  });
+    const Brick& brick = contents_[found];
+    for (std::uint64_t hits = brick.occupied & wanted; hits != 0; hits &= hits - 1) {
+      const std::uint64_t below = brick.occupied & ((hits & (0 - hits)) - 1);
+      const Patch& patch = patches_[brick.first + static_cast<std::uint32_t>(std::popcount(below))];
+      const float distance = (patch.mean - point).squaredNorm();
+      if (distance < best_distance) {
+        best_distance = distance;
+        best = &patch;
+      }
+    }
+  };
+  // Along each axis the three voxels lie in one brick or in two.
+  const AxisSpan x = axis_span(centre.x);
+  const AxisSpan y = axis_span(centre.y);
+  const AxisSpan z = axis_span(centre.z);
+  for (int k = 0; k < z.bricks; ++k) {
+    for (int j = 0; j < y.bricks; ++j) {
+      for (int i = 0; i < x.bricks; ++i) {
+        search_brick({x.first + i, y.first + j, z.first + k},
+                     kSpreadX[x.bits[i]] & kSpreadY[y.bits[j]] & kSpreadZ[z.bits[k]]);
+      }
+    }
+  }
   return best;
 }
 

@@ -13,10 +13,10 @@ namespace loopmark::birdseye {
 struct CorrelationOptions {
   std::size_t side = 256;     ///< cells a side of the correlation grid, a power of two
   double cell_m = 0.8;        ///< edge of a cell; side * cell_m / 2 is the longest translation that is searched
-  double yaw_step_deg = 3.0;  ///< step of the yaw search
+  double yaw_step_deg = 4.0;  ///< step of the yaw search
   double blur_m = 0.4;        ///< standard deviation of the smoothing
-  std::size_t peaks = 40;     ///< distinct peaks that are returned
-  double distinct_m = 3.0;    ///< peaks nearer than this and ...
+  std::size_t peaks = 80;     ///< distinct peaks that are returned
+  double distinct_m = 2.0;    ///< peaks nearer than this and ...
   double distinct_deg = 5.0;  ///< ... turned by less than this are one
 };
 

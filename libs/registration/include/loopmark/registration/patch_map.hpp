@@ -17,14 +17,16 @@ struct Patch {
   float height = 0.0F;     ///< of the mean above the ground below it, metres
 };
 
-/// Patches by voxel; nearest-patch queries look at the voxel and its 26 neighbours.
+/// Patches by voxel; nearest-patch queries look at the voxel and its 26 neighbours. Voxels are kept in bricks of 4 x 4 x 4
+/// with one bit each, so that empty neighbours cost a bit test and not a search.
 class PatchMap {
  public:
-  PatchMap() : table_(0) {}
+  PatchMap() : bricks_(0) {}
   /// `patches`: at most one a voxel of edge size_m; others of the same voxel are dropped.
   PatchMap(std::vector<Patch> patches, float size_m);
 
   float size_m() const { return size_m_; }
+  /// In the order of the bricks.
   const std::vector<Patch>& patches() const { return patches_; }
 
   /// The patch whose mean is nearest to `point` and nearer than `max_distance` (at most size_m for an exact
@@ -32,7 +34,13 @@ class PatchMap {
   const Patch* nearest(const Eigen::Vector3f& point, float max_distance) const;
 
  private:
-  VoxelTable table_;
+  struct Brick {
+    std::uint64_t occupied = 0;  ///< bit x + 4 y + 16 z of the voxel within the brick
+    std::uint32_t first = 0;     ///< of its patches, which stand in the order of the bits
+  };
+
+  VoxelTable bricks_;
+  std::vector<Brick> contents_;
   std::vector<Patch> patches_;
   float size_m_ = 1.0F;
 };
