@@ -23,6 +23,8 @@ const std::vector<Command>& commands() {
       {"relocalize", "find the scans of a log in a map, with no hint where they are", set_up_relocalize},
       {"simulate", "make a drive log with exact truth", set_up_simulate},
       {"balance", "choose balanced sets of frame pairs from drives with poses", set_up_balance},
+      {"register", "find the motion between two scans", set_up_register},
+      {"replay", "run a recorded registration again", set_up_replay},
       {"evaluate", "registration experiments on sets of frame pairs", set_up_evaluate},
       {"config", "show or check the options", set_up_config},
   };

@@ -13,6 +13,8 @@ Action set_up_doctor(CLI::App& command, const Globals& globals);
 Action set_up_evaluate(CLI::App& command, const Globals& globals);
 Action set_up_map(CLI::App& command, const Globals& globals);
 Action set_up_relocalize(CLI::App& command, const Globals& globals);
+Action set_up_register(CLI::App& command, const Globals& globals);
+Action set_up_replay(CLI::App& command, const Globals& globals);
 Action set_up_simulate(CLI::App& command, const Globals& globals);
 
 }  // namespace loopmark::app

@@ -149,7 +149,7 @@ std::string reason_to_abstain(const std::vector<Candidate>& candidates, const st
     return "two places fit alike";
   }
   const Features& f = candidates.front().features;
-  if (f[2] + f[4] > 0.08) {
+  if (f[2] > std::log(0.2) || f[4] > std::log(0.05)) {
     return "beams of one scan pass through what the other saw";
   }
   return f[0] < 0.25 ? "too little structure agrees" : "the evidence is weak";

@@ -15,7 +15,7 @@ constexpr std::size_t kAsked = 2000;  // structure patches a direction
 constexpr float kMet = 0.4F;          // metres
 constexpr float kTight = 0.15F;       // metres
 constexpr float kPlanar = 0.5F;
-constexpr float kTestified = 60.0F;   // metres from the other sensor within which free space counts
+constexpr float kTestified = 80.0F;   // metres from the other sensor within which free space counts
 constexpr float kSpreadCell = 10.0F;  // metres
 constexpr float kTall = 2.2F;          // metres above the ground
 constexpr double kDoubt = 10.0;        // patches: how many it takes to believe a share
@@ -56,7 +56,11 @@ double believed_share(double part, double whole) { return (part + 0.5 * kDoubt) 
 
 Voices sum(const Voices& a, const Voices& b) { return {a.met + b.met, a.conflict + b.conflict, a.unmet + b.unmet}; }
 
-double consistency(const Voices& v) { return believed_share(v.met, v.met + v.conflict + v.unmet); }
+/// Of what should be seen, the share that is.
+double presence(const Voices& v) { return believed_share(v.met, v.met + v.unmet); }
+
+/// How much speaks against, on a logarithmic scale: from nothing to a little matters more than from much to more.
+double log_conflict(const Voices& v) { return std::log((v.conflict + 1.0) / (v.conflict + v.met + kDoubt)); }
 
 /// How well the least constrained direction of translation is held: 0 (slides freely) to 1/3.
 double constraint(const Alignment& alignment) {
@@ -100,12 +104,11 @@ Features features_of(const PreparedScan::Data& source, const PreparedScan::Data&
   const Voices low = sum(a.low, b.low);
   const Voices tall = sum(a.tall, b.tall);
   const double met = a.met() + b.met();
-  const double structure = a.structure + b.structure;
   return {0.5 * (share(a.met(), a.structure) + share(b.met(), b.structure)),
-          consistency(low),
-          share(low.conflict, structure),
-          consistency(tall),
-          share(tall.conflict, structure),
+          presence(low),
+          log_conflict(low),
+          presence(tall),
+          log_conflict(tall),
           believed_share(a.alike + b.alike, a.planar + b.planar),
           believed_share(a.tight + b.tight, met),
           alignment.residual_m,

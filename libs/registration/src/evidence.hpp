@@ -33,7 +33,7 @@ struct Testimony {
 constexpr std::size_t kFeatures = 12;
 using Features = std::array<double, kFeatures>;
 constexpr std::array<std::string_view, kFeatures> kFeatureNames = {
-    "agreement", "low_consistency", "low_conflict", "tall_consistency", "tall_conflict", "normals",
+    "agreement", "low_presence", "low_conflict", "tall_presence", "tall_conflict", "normals",
     "tightness", "residual",        "peak",         "support",          "spread",        "constraint"};
 
 /// Moves the structure of `source` by T (levelled frames) and asks the target's patches and beams.
