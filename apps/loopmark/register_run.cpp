@@ -102,7 +102,8 @@ std::string registration_text(const RegisterRun& run) {
     text += formatted("\nuncertainty   %.3f m", std::sqrt(r.covariance.topLeftCorner<3, 3>().trace()));
     for (std::size_t i = 0; i < std::min<std::size_t>(r.modes.size(), 3); ++i) {
       const Eigen::Vector3d at = r.modes[i].T_target_source.translation();
-      text += "\nmode " + std::to_string(i + 1) + formatted("  P %.3f at %.1f %.1f m ", r.modes[i].p_correct, at.x(), at.y());
+      text += "\nmode " + std::to_string(i + 1) +
+              formatted("  P %.3f at %.1f %.1f m ", r.modes[i].p_correct, at.x(), at.y());
       for (const auto& [name, value] : r.modes[i].evidence) {
         text += " " + name + formatted(" %.3g", value);
       }
@@ -117,16 +118,11 @@ std::string registration_text(const RegisterRun& run) {
 
 std::string registration_json(const RegisterRun& run) {
   const RegistrationResult& r = run.result;
-  Json json = {{"source", run.source_name},
-               {"target", run.target_name},
-               {"algorithm", run.algorithm},
-               {"T_target_source", row_major(r.T_target_source.matrix())},
-               {"answered", r.answered},
-               {"reason", r.reason},
-               {"p_correct", r.p_correct},
-               {"covariance", row_major(r.covariance)},
-               {"modes", Json::array()},
-               {"seconds", Json::object()}};
+  Json json = {{"source", run.source_name},  {"target", run.target_name},
+               {"algorithm", run.algorithm}, {"T_target_source", row_major(r.T_target_source.matrix())},
+               {"answered", r.answered},     {"reason", r.reason},
+               {"p_correct", r.p_correct},   {"covariance", row_major(r.covariance)},
+               {"modes", Json::array()},     {"seconds", Json::object()}};
   for (const RegistrationMode& mode : r.modes) {
     json["modes"].push_back(mode_json(mode));
   }

@@ -111,6 +111,14 @@ TEST_F(Engine, ForwardAndInverseAgree) {
   EXPECT_LT(error.rotation_deg, 0.3);
 }
 
+TEST_F(Engine, AbstainsBetweenDifferentStreets) {
+  const PreparedScan here = prepared(standing_at(0, 0, 0), 1);
+  const PreparedScan there = prepare_scan(Street(99).scan(standing_at(0, 0, 40), 3), options_);
+  const RegistrationResult result = register_scans(here, there, options_);
+  EXPECT_FALSE(result.answered) << result.p_correct;
+  EXPECT_FALSE(result.reason.empty());
+}
+
 TEST_F(Engine, SameBytesAtAnyNumberOfThreads) {
   const PreparedScan a = prepared(standing_at(0, 0, 0), 1);
   const PreparedScan b = prepared(standing_at(9, -4, 130), 2);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBlock = 8;  // cells; one peak a block
 constexpr std::size_t kPeaksPerSurface = 12;
-constexpr float kFullBand = 100.0F;  // cells; a band of so many counts half
+constexpr float kFullBand = 100.0F;   // cells; a band of so many counts half
 constexpr float kSmallPower = 1e-3F;  // keeps empty frequencies from dividing by zero
 
 /// Gaussian smoothing as one factor per frequency; the mean is removed.
@@ -68,8 +68,8 @@ class Correlator {
     }
   }
 
-  /// The correlation surfaces of four yaws at once: a and b in the real and the imaginary part of the first grid, a + pi
-  /// and b + pi in those of the second. Turning an image by pi conjugates its spectrum, which is drawn only once.
+  /// The correlation surfaces of four yaws at once: a and b in the real and the imaginary part of the first grid, a +
+  /// pi and b + pi in those of the second. Turning an image by pi conjugates its spectrum, which is drawn only once.
   std::array<ComplexGrid, 2> surfaces(const std::vector<StructureCell>& source, double yaw_a, double yaw_b) const {
     std::array<ComplexGrid, 2> sums = {ComplexGrid(options_.side), ComplexGrid(options_.side)};
     ComplexGrid grid(options_.side);

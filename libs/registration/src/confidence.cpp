@@ -8,8 +8,9 @@
 namespace loopmark {
 namespace {
 
-constexpr double kBias = -20.0;
-constexpr Features kWeights = {4, 3, -8, 4, -20, 3, 4, 0, 0, 0.7, 1.0, 5};
+constexpr double kBias = -15.4931;
+constexpr Features kWeights = {7.6371, 0.7944, -1.8702, 0.0,    -1.3544, 0.0,     0.0,
+                               0.0,    0.0390, 0.0,     2.0580, 0.0,     -13.8401};
 
 }  // namespace
 

@@ -71,7 +71,8 @@ std::vector<Candidate> shortlist(std::vector<Candidate> candidates, const Prepar
   });
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return agreement[a] > agreement[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return agreement[a] > agreement[b]; });
   std::vector<bool> chosen(candidates.size(), false);
   std::vector<Candidate> kept;
   const auto keep = [&](std::size_t i, std::size_t limit) {

@@ -17,8 +17,9 @@ constexpr float kTight = 0.15F;       // metres
 constexpr float kPlanar = 0.5F;
 constexpr float kTestified = 80.0F;   // metres from the other sensor within which free space counts
 constexpr float kSpreadCell = 10.0F;  // metres
-constexpr float kTall = 2.2F;          // metres above the ground
-constexpr double kDoubt = 10.0;        // patches: how many it takes to believe a share
+constexpr float kTall = 2.2F;         // metres above the ground
+constexpr double kLowOverlap = 0.25;
+constexpr double kDoubt = 10.0;  // patches: how many it takes to believe a share
 
 /// What all viewpoints of a scan say of a point in its levelled frame: agreement outweighs conflict.
 RangeImage::Sight look_from_all(const std::vector<View>& views, const Eigen::Vector3f& point) {
@@ -104,7 +105,8 @@ Features features_of(const PreparedScan::Data& source, const PreparedScan::Data&
   const Voices low = sum(a.low, b.low);
   const Voices tall = sum(a.tall, b.tall);
   const double met = a.met() + b.met();
-  return {0.5 * (share(a.met(), a.structure) + share(b.met(), b.structure)),
+  const double agreement = 0.5 * (share(a.met(), a.structure) + share(b.met(), b.structure));
+  return {std::min(agreement, kLowOverlap),
           presence(low),
           log_conflict(low),
           presence(tall),
@@ -115,7 +117,8 @@ Features features_of(const PreparedScan::Data& source, const PreparedScan::Data&
           std::min(peak, 60.0),
           std::log1p(met),
           std::log1p(0.5 * (a.cells + b.cells)),
-          constraint(alignment)};
+          constraint(alignment),
+          std::max(0.0, agreement - kLowOverlap)};
 }
 
 }  // namespace loopmark

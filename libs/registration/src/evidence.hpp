@@ -30,11 +30,14 @@ struct Testimony {
   double met() const { return low.met + tall.met; }
 };
 
-constexpr std::size_t kFeatures = 12;
+constexpr std::size_t kFeatures = 13;
 using Features = std::array<double, kFeatures>;
+/// agreement: share of the structure that is met, up to a quarter; surplus: what is above it. Their sum is the share
+/// itself: a quarter is what low overlap gives, and more than that is worth nothing while beams pass through the rest
+/// (blocks that look alike).
 constexpr std::array<std::string_view, kFeatures> kFeatureNames = {
-    "agreement", "low_presence", "low_conflict", "tall_presence", "tall_conflict", "normals",
-    "tightness", "residual",        "peak",         "support",          "spread",        "constraint"};
+    "agreement", "low_presence", "low_conflict", "tall_presence", "tall_conflict", "normals", "tightness",
+    "residual",  "peak",         "support",      "spread",        "constraint",    "surplus"};
 
 /// Moves the structure of `source` by T (levelled frames) and asks the target's patches and beams.
 Testimony ask(const PreparedScan::Data& source, const PreparedScan::Data& target, const Pose& T_target_source);

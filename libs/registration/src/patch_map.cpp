@@ -48,9 +48,7 @@ void for_each_neighbour(const VoxelTable& table, const Voxel& centre, const Func
 
 Voxel brick_voxel(const Voxel& v) { return {v.x >> 2, v.y >> 2, v.z >> 2}; }
 
-unsigned bit_in_brick(const Voxel& v) {
-  return static_cast<unsigned>((v.x & 3) | ((v.y & 3) << 2) | ((v.z & 3) << 4));
-}
+unsigned bit_in_brick(const Voxel& v) { return static_cast<unsigned>((v.x & 3) | ((v.y & 3) << 2) | ((v.z & 3) << 4)); }
 
 /// The bricks that hold voxels v - 1 to v + 1 along one axis, and which of their four layers those are.
 struct AxisSpan {
