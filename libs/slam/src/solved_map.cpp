@@ -48,6 +48,9 @@ std::vector<std::size_t> add_loops(SolvedMap& map, const std::vector<LoopRecord>
       map.loops[i].reason = loop.reason;
     } else if (loop.p_correct < options.min_loop_p) {
       map.loops[i].reason = "P(correct) below min_loop_p";
+    } else if (map.keyframes[loop.source].piece == map.keyframes[loop.target].piece &&
+               loop.T_target_source.translation().norm() > options.max_loop_m) {
+      map.loops[i].reason = "seen from farther apart than max_loop_m";
     } else {
       edge_of[i] = map.graph.edges.size();
       map.graph.edges.push_back({loop.target, loop.source, loop.T_target_source,

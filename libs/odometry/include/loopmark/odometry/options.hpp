@@ -25,7 +25,7 @@ struct OdometryOptions {
   double first_threshold_m = 1.0;   ///< distance to a match allowed before the motion model has proved itself
   double min_threshold_m = 0.3;     ///< the same, at least
   double point_weight = 0.05;       ///< weight of the distance along a plane against the one across it
-  double min_inlier_share = 0.45;   ///< fewer keypoints that fit the map: tracking is lost
+  double min_inlier_share = 0.7;    ///< fewer keypoints that fit the map: tracking is lost
   double min_margin = 1.3;          ///< unless the best answer elsewhere around has this many times fewer
   double max_acceleration = 40.0;   ///< m/s2; a jump beyond it is no motion of a vehicle
   double degenerate_share = 0.02;   ///< a direction seen by a smaller share of the keypoints is degenerate
