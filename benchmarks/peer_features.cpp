@@ -17,8 +17,7 @@ bool peer_fpfh(const std::vector<Eigen::Vector3f>& points, const std::vector<Eig
     cloud->push_back({points[i].x(), points[i].y(), points[i].z()});
     oriented->push_back({normals[i].x(), normals[i].y(), normals[i].z()});
   }
-  pcl::FPFHEstimationOMP<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> estimation(
-      static_cast<unsigned>(threads));
+  pcl::FPFHEstimationOMP<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> estimation(static_cast<unsigned>(threads));
   estimation.setInputCloud(cloud);
   estimation.setInputNormals(oriented);
   estimation.setSearchMethod(pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));

@@ -45,7 +45,8 @@ Pose fast_global(const PointPairs& pairs) {
   const Clouds clouds(pairs);
   o3d::FastGlobalRegistrationOption option;
   option.maximum_correspondence_distance_ = 0.6;
-  return pose_of(o3d::FastGlobalRegistrationBasedOnCorrespondence(clouds.source, clouds.target, clouds.matches, option));
+  return pose_of(
+      o3d::FastGlobalRegistrationBasedOnCorrespondence(clouds.source, clouds.target, clouds.matches, option));
 }
 
 }  // namespace

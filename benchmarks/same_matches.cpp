@@ -73,8 +73,7 @@ std::vector<NamedEstimator> estimators() {
          return ransac(p, o).T_target_source;
        }},
       {"gnc_clique", [](const PointPairs& p) { return gnc_clique(p).T_target_source; }},
-      {"gnc_core",
-       [](const PointPairs& p) { return gnc_clique(p, named_algorithm("gnc_core").gnc).T_target_source; }},
+      {"gnc_core", [](const PointPairs& p) { return gnc_clique(p, named_algorithm("gnc_core").gnc).T_target_source; }},
       {"sc2", [](const PointPairs& p) { return spatial_consistency(p).T_target_source; }},
   };
   for (const auto& peers : {open3d_estimators(), pcl_estimators()}) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kWindow = 12;
 constexpr std::size_t kLeast = 8;
-constexpr double kLongestSpacing_s = 0.3;   ///< of scans that follow each other; keyframes are farther apart
+constexpr double kLongestSpacing_s = 0.3;  ///< of scans that follow each other; keyframes are farther apart
 
 bool usable(const DriveLog& log, std::size_t index) {
   try {
@@ -50,8 +50,8 @@ std::vector<std::vector<std::size_t>> stretches(const DriveLog& log) {
 CompensationMeasurement compensation_of_log(const DriveLog& log) {
   const auto windows = stretches(log);
   const bool times_given = !windows.empty() && log.read_closely(windows.front().front()).times_in_file;
-  return measure_compensation(windows, [&](std::size_t i) { return log.read(i); }, times_given, {},
-                              log.info().sweep.value_or(SweepModel{}));
+  return measure_compensation(
+      windows, [&](std::size_t i) { return log.read(i); }, times_given, {}, log.info().sweep.value_or(SweepModel{}));
 }
 
 std::string describe_measurement(const CompensationMeasurement& m) {

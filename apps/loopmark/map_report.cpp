@@ -118,12 +118,13 @@ Rows rows(const MapSummary& s, const MapTimes& t) {
                {"time", fixed(t.whole, 1) + " s, " + fixed(static_cast<double>(s.scans) / t.whole, 1) + " scans/s, " +
                             fixed(s.duration_s / t.whole, 2) + " x real time"}};
   if (s.absolute) {
-    rows.push_back({"ATE", fixed(s.absolute->rmse_m, 3) + " m (odometry alone " + fixed(s.absolute_odometry->rmse_m, 3) + " m)"});
+    rows.push_back(
+        {"ATE", fixed(s.absolute->rmse_m, 3) + " m (odometry alone " + fixed(s.absolute_odometry->rmse_m, 3) + " m)"});
   }
   if (s.kitti) {
     rows.push_back({"t_err, r_err", s.kitti->pieces == 0 ? "- (path below 100 m)"
-                                                        : fixed(s.kitti->translation_percent, 3) + " %, " +
-                                                              fixed(s.kitti->rotation_deg_per_m, 5) + " deg/m"});
+                                                         : fixed(s.kitti->translation_percent, 3) + " %, " +
+                                                               fixed(s.kitti->rotation_deg_per_m, 5) + " deg/m"});
   }
   return rows;
 }
@@ -144,10 +145,12 @@ void write_map_report(const RunFolder& folder, const Mapper& mapper, const Solve
 }
 
 void write_summary(const RunFolder& folder, const MapSummary& s, const MapTimes& t) {
-  nlohmann::ordered_json json = {{"scans", s.scans},           {"damaged", s.damaged},       {"recovered", s.recovered},
-                                 {"keyframes", s.keyframes},   {"candidates", s.candidates}, {"loops", s.loops},
-                                 {"components", s.components}, {"path_m", s.path_m},         {"duration_s", s.duration_s},
-                                 {"compensation", s.compensation}, {"damage", s.damage}};
+  nlohmann::ordered_json json = {{"scans", s.scans},           {"damaged", s.damaged},
+                                 {"recovered", s.recovered},   {"keyframes", s.keyframes},
+                                 {"candidates", s.candidates}, {"loops", s.loops},
+                                 {"components", s.components}, {"path_m", s.path_m},
+                                 {"duration_s", s.duration_s}, {"compensation", s.compensation},
+                                 {"damage", s.damage}};
   if (s.absolute) {
     json["ate_rmse_m"] = s.absolute->rmse_m;
     json["ate_odometry_rmse_m"] = s.absolute_odometry->rmse_m;
@@ -157,8 +160,8 @@ void write_summary(const RunFolder& folder, const MapSummary& s, const MapTimes&
     json["r_err_deg_per_m"] = s.kitti->rotation_deg_per_m;
   }
   write_file_atomically(folder / "summary.json", json.dump(1) + "\n");
-  const nlohmann::ordered_json seconds = {{"reading", t.reading},   {"odometry", t.odometry}, {"loops", t.loops},
-                                          {"solving", t.solving},   {"products", t.products}, {"whole", t.whole}};
+  const nlohmann::ordered_json seconds = {{"reading", t.reading}, {"odometry", t.odometry}, {"loops", t.loops},
+                                          {"solving", t.solving}, {"products", t.products}, {"whole", t.whole}};
   write_file_atomically(folder / "timings.json", seconds.dump(1) + "\n");
 }
 

@@ -139,7 +139,8 @@ std::vector<Pose> truth_of(const DriveLog& log, const std::filesystem::path& fil
     truth = read_trajectory(file).poses;
   }
   if (!truth.empty() && truth.size() != log.size()) {
-    throw InputError(file.string(), "", std::to_string(truth.size()) + " poses for " + std::to_string(log.size()) + " scans",
+    throw InputError(file.string(), "",
+                     std::to_string(truth.size()) + " poses for " + std::to_string(log.size()) + " scans",
                      "the truth must have one pose for each scan");
   }
   return truth;
@@ -193,7 +194,8 @@ Compensation compensation_of(const DriveLog& log, const SlamOptions& options) {
   if (points_have_times(log)) {
     return Compensation::kRawGivenTimes;
   }
-  return log.info().sweep && !log.info().sweep->clockwise ? Compensation::kRawCounterClockwise : Compensation::kRawClockwise;
+  return log.info().sweep && !log.info().sweep->clockwise ? Compensation::kRawCounterClockwise
+                                                          : Compensation::kRawClockwise;
 }
 
 MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options) {

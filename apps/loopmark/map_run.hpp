@@ -22,8 +22,8 @@ struct MapJob {
 
 /// Seconds spent in each part of a run by this process.
 struct MapTimes {
-  double reading = 0.0;      ///< waiting for scans
-  double odometry = 0.0;     ///< keyframes included
+  double reading = 0.0;   ///< waiting for scans
+  double odometry = 0.0;  ///< keyframes included
   double loops = 0.0;
   double solving = 0.0;
   double products = 0.0;
@@ -37,10 +37,10 @@ struct MapSummary {
   std::size_t recovered = 0;
   std::size_t keyframes = 0;
   std::size_t candidates = 0;
-  std::size_t loops = 0;       ///< accepted
+  std::size_t loops = 0;  ///< accepted
   std::size_t components = 0;
   double path_m = 0.0;
-  double duration_s = 0.0;     ///< from the first to the last stamp
+  double duration_s = 0.0;  ///< from the first to the last stamp
   std::string compensation;
   std::optional<AbsoluteError> absolute;
   std::optional<AbsoluteError> absolute_odometry;  ///< before the loops

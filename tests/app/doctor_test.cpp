@@ -12,9 +12,9 @@
 namespace loopmark::app {
 namespace {
 
-using ::testing::HasSubstr;
 using loopmark::testing::random_cloud;
 using loopmark::testing::TemporaryFolder;
+using ::testing::HasSubstr;
 using testing_support::ProgramResult;
 using testing_support::run_program;
 

@@ -123,8 +123,7 @@ TEST(Ransac, EdgeLengthCheckIsItsDefinition) {
 TEST(Ransac, SprtThresholdSolvesItsEquation) {
   for (const double epsilon : {0.05, 0.3, 0.8}) {
     const double delta = 0.01;
-    const double c =
-        (1 - delta) * std::log((1 - delta) / (1 - epsilon)) + delta * std::log(delta / epsilon);
+    const double c = (1 - delta) * std::log((1 - delta) / (1 - epsilon)) + delta * std::log(delta / epsilon);
     const double a = sprt_threshold(epsilon, delta, 100.0);
     EXPECT_NEAR(a, 100.0 * c + 1.0 + std::log(a), 1e-9);
   }

@@ -25,8 +25,8 @@ std::string bytes_of(const std::vector<Number>& values) {
 
 /// A .npy file as numpy.save writes it.
 std::string npy(const std::string& type, const std::string& shape, const std::string& data, bool fortran = false) {
-  std::string header = "{'descr': '" + type + "', 'fortran_order': " + (fortran ? "True" : "False") +
-                       ", 'shape': " + shape + ", }";
+  std::string header =
+      "{'descr': '" + type + "', 'fortran_order': " + (fortran ? "True" : "False") + ", 'shape': " + shape + ", }";
   header += std::string(64 - (header.size() + 11) % 64, ' ') + "\n";
   std::string out("\x93NUMPY\x01\x00", 8);
   out += static_cast<char>(header.size() & 0xFFU);
@@ -85,7 +85,8 @@ const std::string kRaw = npy("<f8", "(3, 3)", bytes_of<double>({9, 9, 9, 9, 9, 9
 
 TEST(DescriptorFile, ReadsWhatFcgfExports) {
   for (const bool compress : {false, true}) {
-    const auto path = write("fcgf.npz", zip({{"points.npy", kRaw}, {"xyz.npy", kPoints}, {"feature.npy", kFeatures}}, compress));
+    const auto path =
+        write("fcgf.npz", zip({{"points.npy", kRaw}, {"xyz.npy", kPoints}, {"feature.npy", kFeatures}}, compress));
     const DescriptorFile file = read_descriptors(path);
     ASSERT_EQ(file.points.size(), 2U);
     EXPECT_EQ(file.points[1], Eigen::Vector3f(4, 5, 6));
@@ -94,7 +95,8 @@ TEST(DescriptorFile, ReadsWhatFcgfExports) {
 }
 
 TEST(DescriptorFile, TakesThePointsThatFitTheDescriptors) {
-  const auto path = write("d3.npz", zip({{"xyz.npy", kRaw}, {"points.npy", kPoints}, {"features.npy", kFeatures}}, false));
+  const auto path =
+      write("d3.npz", zip({{"xyz.npy", kRaw}, {"points.npy", kPoints}, {"features.npy", kFeatures}}, false));
   EXPECT_EQ(read_descriptors(path).points[0], Eigen::Vector3f(1, 2, 3));
 }
 
@@ -138,7 +140,8 @@ TEST(DescriptorFile, SaysWhatIsWrong) {
 TEST(DescriptorFile, NoDamageGoesUnnoticedOrBreaksTheReader) {
   const std::string good = zip({{"xyz.npy", kPoints}, {"features.npy", kFeatures}}, true);
   for (std::size_t i = 0; i < good.size(); i += i < good.size() / 2 ? 5 : 1) {
-    for (const std::string& bad : {good.substr(0, i), std::string(good).replace(i, 1, 1, static_cast<char>(good[i] ^ 0x55))}) {
+    for (const std::string& bad :
+         {good.substr(0, i), std::string(good).replace(i, 1, 1, static_cast<char>(good[i] ^ 0x55))}) {
       try {
         const DescriptorFile file = read_descriptors(write("fuzz.npz", bad));
         // Only fields that the reader does not need may have changed.
@@ -149,9 +152,7 @@ TEST(DescriptorFile, NoDamageGoesUnnoticedOrBreaksTheReader) {
   }
 }
 
-TEST(DescriptorFile, SaysWhenThereIsNoFile) {
-  EXPECT_THROW(read_descriptors("/no/such/file.npz"), InputError);
-}
+TEST(DescriptorFile, SaysWhenThereIsNoFile) { EXPECT_THROW(read_descriptors("/no/such/file.npz"), InputError); }
 
 }  // namespace
 }  // namespace loopmark

@@ -13,8 +13,8 @@ namespace loopmark {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 using testing::bytes_of;
+using ::testing::HasSubstr;
 using testing::message_of;
 using testing::random_cloud;
 using testing::TemporaryFolder;
@@ -133,8 +133,8 @@ void write_nuscenes(const TemporaryFolder& folder, const std::string& version) {
   };
   folder.write(tables + "sample_data.json",
                "[" + sweep("x0", "a0", "", true, "LIDAR_TOP") + "," + sweep("w2", "a2", "", false, "LIDAR_TOP") + "," +
-                   sweep("r0", "a1", "", true, "RADAR_FRONT") + "," + sweep("w0", "a1", "w1", true, "LIDAR_TOP") +
-                   "," + sweep("w1", "a2", "w2", false, "LIDAR_TOP") + "]");
+                   sweep("r0", "a1", "", true, "RADAR_FRONT") + "," + sweep("w0", "a1", "w1", true, "LIDAR_TOP") + "," +
+                   sweep("w1", "a2", "w2", false, "LIDAR_TOP") + "]");
   std::string poses;
   int x = 0;
   for (const char* token : {"x0", "w0", "w1", "w2", "r0"}) {

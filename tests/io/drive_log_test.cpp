@@ -153,8 +153,9 @@ TEST(DriveLog, MulRanPosesAreThoseOfTheOuster) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "Ouster");
   write_bin(folder / "Ouster/1561000444390000000.bin", random_cloud(60));
-  folder.write("global_pose.csv", "1561000444000000000,1,0,0,10,0,1,0,0,0,0,1,0\n"
-                                  "1561000445000000000,1,0,0,20,0,1,0,0,0,0,1,0\n");
+  folder.write("global_pose.csv",
+               "1561000444000000000,1,0,0,10,0,1,0,0,0,0,1,0\n"
+               "1561000445000000000,1,0,0,20,0,1,0,0,0,0,1,0\n");
   const auto log = open_log(folder.path());
   EXPECT_EQ(log->info().format, "mulran");
   EXPECT_NEAR(log->truth().at(0).translation().x(), 13.9 + 1.7042, 1e-4);

@@ -23,8 +23,8 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = fs::temp_directory_path() / ("loopmark_" + std::to_string(::getpid()) + "_" + test->test_suite_name() + "_" +
-                                         test->name());
+    path_ = fs::temp_directory_path() /
+            ("loopmark_" + std::to_string(::getpid()) + "_" + test->test_suite_name() + "_" + test->name());
     fs::remove_all(path_);
     fs::create_directories(path_);
   }

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using ::testing::HasSubstr;
 using testing::bytes_of;
+using ::testing::HasSubstr;
 using testing::message_of;
 using testing::random_cloud;
 using testing::TemporaryFolder;
@@ -88,8 +88,9 @@ TEST(PointFiles, AsciiPcdWithOddFieldsAndAbsoluteTimes) {
 
 TEST(PointFiles, RelativeTimesInNanosecondsBecomeSeconds) {
   const TemporaryFolder folder;
-  std::string bytes = "VERSION 0.7\nFIELDS x y z t\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 100\nHEIGHT 1\n"
-                      "POINTS 100\nDATA binary\n";
+  std::string bytes =
+      "VERSION 0.7\nFIELDS x y z t\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 100\nHEIGHT 1\n"
+      "POINTS 100\nDATA binary\n";
   for (std::uint32_t i = 0; i < 100; ++i) {
     bytes += bytes_of(1.0F) + bytes_of(2.0F) + bytes_of(3.0F) + bytes_of(i * 1'000'000U);
   }
@@ -101,9 +102,10 @@ TEST(PointFiles, RelativeTimesInNanosecondsBecomeSeconds) {
 
 TEST(PointFiles, AsciiPly) {
   const TemporaryFolder folder;
-  folder.write("a.ply", "ply\nformat ascii 1.0\ncomment x\nelement vertex 2\nproperty double x\nproperty float y\n"
-                        "property float z\nproperty uchar intensity\nelement face 1\n"
-                        "property list uchar int vertex_indices\nend_header\n1 2 3 9\n4 5 6 8\n3 0 1 1\n");
+  folder.write("a.ply",
+               "ply\nformat ascii 1.0\ncomment x\nelement vertex 2\nproperty double x\nproperty float y\n"
+               "property float z\nproperty uchar intensity\nelement face 1\n"
+               "property list uchar int vertex_indices\nend_header\n1 2 3 9\n4 5 6 8\n3 0 1 1\n");
   const PointCloud cloud = read_point_file(folder / "a.ply").cloud;
   ASSERT_EQ(cloud.size(), 2U);
   EXPECT_EQ(cloud.points[1], Eigen::Vector3f(4, 5, 6));
@@ -139,7 +141,8 @@ TEST(PointFiles, DamageNamesTheFileThePlaceAndTheProblem) {
   folder.write("cut_header.pcd", pcd.substr(0, 60));
   folder.write("cut.ply", ply.substr(0, ply.size() - 5));
   folder.write("big.ply", "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nend_header\n....");
-  folder.write("words.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nPOINTS 1\nDATA ascii\n1 b 3\n");
+  folder.write("words.pcd",
+               "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nPOINTS 1\nDATA ascii\n1 b 3\n");
   const auto problem = [&](const char* name) {
     return message_of<DamagedScan>([&] { read_point_file(folder / name); });
   };

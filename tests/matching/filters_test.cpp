@@ -140,9 +140,9 @@ TEST(Gpf, TakesDegenerateInput) {
 }
 
 TEST(Gpf, WaterLevelIsTheLargestOfTheClosest) {
-  EXPECT_EQ(water_level({5, 5, 5}, 7.0), 2U);   // sums 3, 6, 9: 6 is closest
-  EXPECT_EQ(water_level({5, 5, 5}, 7.5), 3U);   // 6 and 9 are as close: the larger
-  EXPECT_EQ(water_level({2, 10}, 8.0), 6U);     // 2 + 6
+  EXPECT_EQ(water_level({5, 5, 5}, 7.0), 2U);  // sums 3, 6, 9: 6 is closest
+  EXPECT_EQ(water_level({5, 5, 5}, 7.5), 3U);  // 6 and 9 are as close: the larger
+  EXPECT_EQ(water_level({2, 10}, 8.0), 6U);    // 2 + 6
   EXPECT_EQ(water_level({2, 2}, 100.0), 2U);
   EXPECT_EQ(water_level({}, 3.0), 0U);
 }

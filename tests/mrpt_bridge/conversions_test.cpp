@@ -42,8 +42,7 @@ TEST(Conversions, CovarianceFollowsFiniteDifferences) {
   constexpr double kStep = 1e-6;
   for (int k = 0; k < 6; ++k) {
     const Vector6d step = kStep * Vector6d::Unit(k);
-    jacobian.col(k) =
-        (mrpt_coordinates(exp_se3(step) * pose) - mrpt_coordinates(exp_se3(-step) * pose)) / (2 * kStep);
+    jacobian.col(k) = (mrpt_coordinates(exp_se3(step) * pose) - mrpt_coordinates(exp_se3(-step) * pose)) / (2 * kStep);
   }
   Matrix6d root = Matrix6d::Random();
   const Matrix6d covariance = root * root.transpose() + Matrix6d::Identity();

@@ -20,8 +20,9 @@ using testing::TemporaryFolder;
 
 SimpleMapKeyframe keyframe(std::size_t i) {
   const Pose pose = pose_from_yaw(0.2 * static_cast<double>(i), {static_cast<double>(i), 1, 2});
-  return {pose, 0.01 * static_cast<double>(i + 1) * Matrix6d::Identity(), {i, 50.0 + static_cast<double>(i),
-                                                                         random_cloud(60 + i, i)}};
+  return {pose,
+          0.01 * static_cast<double>(i + 1) * Matrix6d::Identity(),
+          {i, 50.0 + static_cast<double>(i), random_cloud(60 + i, i)}};
 }
 
 TEST(MapExport, SimpleMapIsReadByMrptAndByUs) {

@@ -12,7 +12,9 @@
 namespace loopmark {
 namespace {
 
-Eigen::Vector3d random_vector(Rng& rng, double size) { return size * Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()); }
+Eigen::Vector3d random_vector(Rng& rng, double size) {
+  return size * Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal());
+}
 
 /// The gradient of half the cost by central differences of cost(exp(xi) * p).
 template <class Cost>

@@ -56,8 +56,8 @@ std::vector<float> times_from_azimuth(const std::vector<Eigen::Vector3f>& points
   return times;
 }
 
-std::vector<Eigen::Vector3f> deskewed(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& time_offset_s,
-                                      const Vector6d& velocity) {
+std::vector<Eigen::Vector3f> deskewed(const std::vector<Eigen::Vector3f>& points,
+                                      const std::vector<float>& time_offset_s, const Vector6d& velocity) {
   if (points.size() != time_offset_s.size()) {
     throw std::invalid_argument("deskewed: one time for each point is needed");
   }

@@ -42,8 +42,7 @@ RecordLines read_records(const std::filesystem::path& path) {
     if (end == std::string::npos || !is_whole(line)) {
       if (!last) {
         throw InputError(path.string(), "line " + std::to_string(records.lines.size() + 1),
-                         "damaged record in the middle of the file",
-                         "delete the file: its records are computed again");
+                         "damaged record in the middle of the file", "delete the file: its records are computed again");
       }
       records.torn = true;
       return records;

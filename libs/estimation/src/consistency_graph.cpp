@@ -108,8 +108,7 @@ namespace {
 /// Greedy clique around one vertex: its neighbours, those that share most with it first.
 std::vector<std::size_t> clique_around(const ConsistencyGraph& graph, std::size_t seed) {
   std::vector<std::pair<std::size_t, std::size_t>> order;  // (-shared, vertex)
-  graph.for_each_neighbour(
-      seed, [&](std::size_t v) { order.emplace_back(graph.size() - graph.common(seed, v), v); });
+  graph.for_each_neighbour(seed, [&](std::size_t v) { order.emplace_back(graph.size() - graph.common(seed, v), v); });
   std::sort(order.begin(), order.end());
   std::vector<std::size_t> clique{seed};
   std::vector<std::uint64_t> candidates(graph.row(seed), graph.row(seed) + graph.words());

@@ -35,8 +35,7 @@ LocalOptimizer::LocalOptimizer(const PointPairs& pairs, const Scorer& scorer, co
 }
 
 std::vector<std::size_t> LocalOptimizer::select_inliers(const Pose& T) const {
-  return options_.local == LocalOptimization::kGraphCut ? cut_inliers(T)
-                                                        : inliers_of(pairs_, T, options_.threshold_m);
+  return options_.local == LocalOptimization::kGraphCut ? cut_inliers(T) : inliers_of(pairs_, T, options_.threshold_m);
 }
 
 /// Labels with the energy of GC-RANSAC (Barath and Matas 2018, Sec. 3.1): unary terms from a Gaussian kernel of the

@@ -120,8 +120,8 @@ class Run {
   void accept(const Pose& T, double score) {
     result_.T_target_source = T;
     result_.score = score;
-    const double share = static_cast<double>(inliers_of(pairs_, T, options_.threshold_m).size()) /
-                         static_cast<double>(pairs_.size());
+    const double share =
+        static_cast<double>(inliers_of(pairs_, T, options_.threshold_m).size()) / static_cast<double>(pairs_.size());
     needed_ = iterations_needed(share, options_.confidence);
     if (test_) {
       test_->learn_good(share);

@@ -25,8 +25,8 @@ inline void draw_distinct(Rng& rng, std::size_t bound, std::size_t (&triple)[3],
   }
 }
 
-/// Draws minimal sets, uniformly or as PROSAC does (Chum and Matas 2005, Sec. 2, growth function of eq. 3-5): from a pool
-/// of the best matches that grows as if uniform sampling took its samples in the order of their quality.
+/// Draws minimal sets, uniformly or as PROSAC does (Chum and Matas 2005, Sec. 2, growth function of eq. 3-5): from a
+/// pool of the best matches that grows as if uniform sampling took its samples in the order of their quality.
 class TripleSampler {
  public:
   TripleSampler(Sampler kind, std::size_t count, std::size_t growth)

@@ -70,8 +70,7 @@ std::vector<std::size_t> pick_seeds(const PointPairs& pairs, const std::vector<d
 /// The seed and the matches that share most consistent matches with it.
 std::vector<std::size_t> group_of(const ConsistencyGraph& graph, std::size_t seed, std::size_t neighbours) {
   std::vector<std::pair<std::size_t, std::size_t>> order;  // (size - shared, match)
-  graph.for_each_neighbour(
-      seed, [&](std::size_t j) { order.emplace_back(graph.size() - graph.common(seed, j), j); });
+  graph.for_each_neighbour(seed, [&](std::size_t j) { order.emplace_back(graph.size() - graph.common(seed, j), j); });
   const std::size_t count = std::min(neighbours, order.size());
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
   std::vector<std::size_t> group{seed};
@@ -135,8 +134,7 @@ Estimate spatial_consistency(const PointPairs& pairs, const SpatialConsistencyOp
     }
   }
   result.stop = EstimateStop::kDone;
-  result.T_target_source =
-      reweighted_fit(pairs, result.T_target_source, options.threshold_m * options.score_factor);
+  result.T_target_source = reweighted_fit(pairs, result.T_target_source, options.threshold_m * options.score_factor);
   result.inliers = inliers_of(pairs, result.T_target_source, options.threshold_m);
   result.found = result.inliers.size() >= 3;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

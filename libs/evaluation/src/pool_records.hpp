@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "loopmark/evaluation/candidate_pool.hpp"
 #include "loopmark/core/record_file.hpp"
+#include "loopmark/evaluation/candidate_pool.hpp"
 
 namespace loopmark::detail {
 

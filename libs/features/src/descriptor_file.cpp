@@ -31,9 +31,9 @@ DescriptorFile joined(const DescriptorMatrix& points, DescriptorMatrix descripto
     throw InputError(file, "points", "have " + std::to_string(points.cols()) + " columns instead of 3");
   }
   if (points.rows() != descriptors.rows()) {
-    throw InputError(file, "",
-                     std::to_string(descriptors.rows()) + " descriptors for " + std::to_string(points.rows()) + " points",
-                     "export the points that the descriptors belong to, one a row");
+    throw InputError(
+        file, "", std::to_string(descriptors.rows()) + " descriptors for " + std::to_string(points.rows()) + " points",
+        "export the points that the descriptors belong to, one a row");
   }
   DescriptorFile out;
   for (Eigen::Index r = 0; r < points.rows(); ++r) {

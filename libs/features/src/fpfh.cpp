@@ -30,8 +30,8 @@ struct NeighbourLists {
 /// Reused memory of one task.
 struct Workspace {
   Neighbourhood around;
-  std::vector<float> squared;                       ///< of the candidates
-  std::array<std::vector<float>, 7> arrays;         ///< x y z nx ny nz d2 of the neighbours
+  std::vector<float> squared;                ///< of the candidates
+  std::array<std::vector<float>, 7> arrays;  ///< x y z nx ny nz d2 of the neighbours
   std::array<std::vector<std::uint8_t>, 3> bins;
   void resize(std::size_t count) {
     const std::size_t padded = (count + kLanes) / kLanes * kLanes;
@@ -182,8 +182,8 @@ DescriptorMatrix fpfh(const std::vector<Eigen::Vector3f>& points, const std::vec
   for (std::size_t r = 0; r < wanted.size(); ++r) {
     row_of.at(wanted[r]) = r;
   }
-  DescriptorMatrix out = DescriptorMatrix::Zero(
-      static_cast<Eigen::Index>(wanted.empty() ? points.size() : wanted.size()), kFpfhDimension);
+  DescriptorMatrix out =
+      DescriptorMatrix::Zero(static_cast<Eigen::Index>(wanted.empty() ? points.size() : wanted.size()), kFpfhDimension);
   parallel_for(tasks.size(), [&](std::size_t t) {
     std::vector<float> weights;
     std::uint32_t i = grid.cells()[t * kCellsPerTask].run.begin;

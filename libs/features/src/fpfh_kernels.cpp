@@ -51,8 +51,8 @@ void squared_distances(const float* x, const float* y, const float* z, std::size
 }
 
 LOOPMARK_DISPATCH
-void pair_bins(const OrientedPoint& point, const NeighbourArrays& to, std::size_t count,
-               std::uint8_t* __restrict theta, std::uint8_t* __restrict alpha, std::uint8_t* __restrict phi) {
+void pair_bins(const OrientedPoint& point, const NeighbourArrays& to, std::size_t count, std::uint8_t* __restrict theta,
+               std::uint8_t* __restrict alpha, std::uint8_t* __restrict phi) {
   const float px = point.p[0], py = point.p[1], pz = point.p[2];
   const float ux = point.n[0], uy = point.n[1], uz = point.n[2];
   const float *tx = to.x, *ty = to.y, *tz = to.z, *tnx = to.nx, *tny = to.ny, *tnz = to.nz, *t2 = to.squared;

@@ -53,8 +53,7 @@ std::vector<bool> ground_points(const std::vector<Eigen::Vector3f>& points, cons
       continue;
     }
     const double height = static_cast<double>(points[i].z() - floors.at(cell_of(points[i], options.cell_m)));
-    const bool flat =
-        !normals.empty() && static_cast<double>(std::abs(normals[i].z())) > options.flat_cosine;
+    const bool flat = !normals.empty() && static_cast<double>(std::abs(normals[i].z())) > options.flat_cosine;
     ground[i] = height < (flat ? options.flat_clearance_m : options.clearance_m);
   }
   return ground;

@@ -74,8 +74,16 @@ void by_count(const std::vector<Eigen::Vector3f>& points, const NormalOptions& o
         kernels::Moments m{};
         for (const Neighbour& neighbour : tree.k_nearest(finite[i], options.neighbours)) {
           const Eigen::Vector3f d = finite[neighbour.index] - finite[i];
-          const kernels::Moments one{1,           d.x(),       d.y(),       d.z(),       d.x() * d.x(),
-                                     d.x() * d.y(), d.x() * d.z(), d.y() * d.y(), d.y() * d.z(), d.z() * d.z()};
+          const kernels::Moments one{1,
+                                     d.x(),
+                                     d.y(),
+                                     d.z(),
+                                     d.x() * d.x(),
+                                     d.x() * d.y(),
+                                     d.x() * d.z(),
+                                     d.y() * d.y(),
+                                     d.y() * d.z(),
+                                     d.z() * d.z()};
           for (std::size_t k = 0; k < m.size(); ++k) {
             m[k] += one[k];
           }

@@ -37,8 +37,8 @@ std::string_view header_text(std::string_view bytes, const Complaint& fail, std:
   const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i])); };
   const bool short_length = byte(6) == 1;
   const std::size_t start = short_length ? 10 : 12;
-  const std::size_t length = short_length ? byte(8) + 256 * byte(9)
-                                          : byte(8) + 256 * (byte(9) + 256 * (byte(10) + 256 * byte(11)));
+  const std::size_t length =
+      short_length ? byte(8) + 256 * byte(9) : byte(8) + 256 * (byte(9) + 256 * (byte(10) + 256 * byte(11)));
   if (length > bytes.size() - start) {
     fail("the header is cut off");
   }

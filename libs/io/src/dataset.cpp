@@ -90,12 +90,9 @@ struct Layout {
 };
 
 constexpr std::array kLayouts = {
-    Layout{"nuscenes", io::find_nuscenes},
-    Layout{"kitti-odometry", io::find_kitti_odometry},
-    Layout{"kitti-raw", io::find_kitti_raw},
-    Layout{"apollo-southbay", io::find_apollo_southbay},
-    Layout{"mulran", io::find_mulran},
-    Layout{"logs", io::find_logs},
+    Layout{"nuscenes", io::find_nuscenes},   Layout{"kitti-odometry", io::find_kitti_odometry},
+    Layout{"kitti-raw", io::find_kitti_raw}, Layout{"apollo-southbay", io::find_apollo_southbay},
+    Layout{"mulran", io::find_mulran},       Layout{"logs", io::find_logs},
 };
 
 }  // namespace

@@ -128,10 +128,11 @@ std::optional<Parts> find_kitti_odometry(const fs::path& root, const DatasetOpti
 }
 
 std::optional<Parts> find_kitti_raw(const fs::path& root, const DatasetOptions& options) {
-  Parts parts = parts_of("kitti-raw",
-                         "KITTI raw: clouds in the frame of the Velodyne, not motion-compensated, 10 Hz, frames from 0, "
-                         "sessions in order of the drives' names",
-                         root, options);
+  Parts parts =
+      parts_of("kitti-raw",
+               "KITTI raw: clouds in the frame of the Velodyne, not motion-compensated, 10 Hz, frames from 0, "
+               "sessions in order of the drives' names",
+               root, options);
   std::vector<fs::path> places = list_folders(root);  // the drives, or the dates with the drives
   for (const fs::path& date : list_folders(root)) {
     const auto drives = list_folders(date);
@@ -214,8 +215,8 @@ Parts logs_of_sessions_file(const fs::path& root, const fs::path& file, const Da
     }
     const auto session = static_cast<int>(*number);
     if (const auto [it, fresh] = seen.emplace(session, line_number); !fresh) {
-      throw InputError(file.string(), place, "session " + std::to_string(session) + " is already on line " +
-                                                 std::to_string(it->second));
+      throw InputError(file.string(), place,
+                       "session " + std::to_string(session) + " is already on line " + std::to_string(it->second));
     }
     // Names may hold spaces: everything from the second word on.
     const std::string name(line.substr(static_cast<std::size_t>(words[1].data() - line.data())));

@@ -51,7 +51,7 @@ Pose pose_of(const Json& row) {
 
 struct Sweep {
   std::string file;
-  std::string next;          ///< token of the sweep after it; empty at the end of the scene
+  std::string next;  ///< token of the sweep after it; empty at the end of the scene
   std::string ego_pose;
   std::string calibration;
   double stamp_s = 0.0;
@@ -138,10 +138,10 @@ class Tables {
   fs::path root_;
   fs::path folder_;
   std::once_flag once_;
-  std::unordered_map<std::string, Sweep> sweeps_;              ///< by token
-  std::unordered_map<std::string, std::string> first_sweep_;   ///< key frame's sweep by the token of its sample
-  std::unordered_map<std::string, Pose> ego_poses_;            ///< T_world_car
-  std::unordered_map<std::string, Pose> calibrations_;         ///< T_car_sensor
+  std::unordered_map<std::string, Sweep> sweeps_;             ///< by token
+  std::unordered_map<std::string, std::string> first_sweep_;  ///< key frame's sweep by the token of its sample
+  std::unordered_map<std::string, Pose> ego_poses_;           ///< T_world_car
+  std::unordered_map<std::string, Pose> calibrations_;        ///< T_car_sensor
 };
 
 /// The version of the tables to read. Throws InputError when several are there and none is asked for.
@@ -174,7 +174,8 @@ std::optional<Dataset::Parts> find_nuscenes(const fs::path& root, const DatasetO
   }
   Dataset::Parts parts;
   parts.layout = "nuscenes";
-  parts.description = "nuScenes " + *version + ": LIDAR_TOP sweeps at 20 Hz moved into the car's frame, frames from 0 in "
+  parts.description = "nuScenes " + *version +
+                      ": LIDAR_TOP sweeps at 20 Hz moved into the car's frame, frames from 0 in "
                       "order of time, session = place of the scene in scene.json; the poses hold no usable height";
   parts.root = root;
   auto first_samples = std::make_shared<std::vector<std::string>>();

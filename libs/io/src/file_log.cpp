@@ -15,9 +15,9 @@ void finish_reading(ScanReading& reading, const std::string& scan_name, const Lo
   PointCloud& cloud = reading.scan.cloud;
   const std::size_t senseless = reading.dropped.not_finite + reading.dropped.absurd;
   if (cloud.size() < options.min_points) {
-    throw DamagedScan(scan_name, "", std::to_string(cloud.size()) + " usable points, " + std::to_string(senseless) +
-                                         " that make no sense, where at least " + std::to_string(options.min_points) +
-                                         " are needed",
+    throw DamagedScan(scan_name, "",
+                      std::to_string(cloud.size()) + " usable points, " + std::to_string(senseless) +
+                          " that make no sense, where at least " + std::to_string(options.min_points) + " are needed",
                       "leave the scan out, or lower min_points");
   }
   if (senseless > 0) {

@@ -17,7 +17,7 @@ struct FileLogParts {
   std::vector<double> stamps_s;
   std::vector<std::size_t> frame_numbers;
   std::vector<Pose> truth;
-  std::optional<Pose> T_cloud_sensor;   ///< moves the points when they are read
+  std::optional<Pose> T_cloud_sensor;  ///< moves the points when they are read
   LogOptions options;
 };
 
@@ -40,7 +40,6 @@ class FileLog : public DriveLog {
 
 /// What all logs do with a scan once its points are there: too few points are an error, points without times
 /// get them where the log says how its sensor sweeps. Throws DamagedScan.
-void finish_reading(ScanReading& reading, const std::string& scan_name, const LogInfo& info,
-                    const LogOptions& options);
+void finish_reading(ScanReading& reading, const std::string& scan_name, const LogInfo& info, const LogOptions& options);
 
 }  // namespace loopmark::io

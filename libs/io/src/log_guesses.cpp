@@ -12,7 +12,7 @@ namespace loopmark {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kNear_m = 2.0;   ///< nearer points belong to the carrier, or their elevation is no beam's
+constexpr double kNear_m = 2.0;  ///< nearer points belong to the carrier, or their elevation is no beam's
 
 struct Angles {
   std::vector<double> azimuth;
@@ -47,9 +47,8 @@ std::size_t beams_by_rings(const std::vector<std::uint16_t>& rings) {
   for (const std::uint16_t ring : rings) {
     ++counts[ring];
   }
-  return static_cast<std::size_t>(std::count_if(counts.begin(), counts.end(), [&](const auto& entry) {
-    return 1000 * entry.second >= rings.size();
-  }));
+  return static_cast<std::size_t>(std::count_if(
+      counts.begin(), counts.end(), [&](const auto& entry) { return 1000 * entry.second >= rings.size(); }));
 }
 
 /// Where files hold ring after ring, the azimuth turns once for each beam.
@@ -126,8 +125,8 @@ std::string name_of(const SensorGuess& guess) {
   std::string name;
   double nearest = 6.0;
   for (const KnownSensor& sensor : kKnownSensors) {
-    const double miss = std::max(std::abs(sensor.lowest_deg - guess.lowest_deg),
-                                 std::abs(sensor.highest_deg - guess.highest_deg));
+    const double miss =
+        std::max(std::abs(sensor.lowest_deg - guess.lowest_deg), std::abs(sensor.highest_deg - guess.highest_deg));
     if (sensor.beams == guess.beams && miss < nearest) {
       nearest = miss;
       name = sensor.name;

@@ -25,10 +25,14 @@ std::string line(const char* what, const std::string& text) { return format("  %
 
 const char* name_of(PointTimeSource source) {
   switch (source) {
-    case PointTimeSource::kInFiles: return "given";
-    case PointTimeSource::kRebuilt: return "rebuilt";
-    case PointTimeSource::kMixed: return "mixed";
-    default: return "missing";
+    case PointTimeSource::kInFiles:
+      return "given";
+    case PointTimeSource::kRebuilt:
+      return "rebuilt";
+    case PointTimeSource::kMixed:
+      return "mixed";
+    default:
+      return "missing";
   }
 }
 
@@ -63,12 +67,15 @@ std::string sensor_text(const SensorGuess& s) {
 std::string times_text(const LogReport& r) {
   const std::string span = format("%.3f to %.3f s around the stamp", r.sweep_first_s, r.sweep_last_s);
   switch (r.point_times) {
-    case PointTimeSource::kInFiles: return "given for every point, " + span;
+    case PointTimeSource::kInFiles:
+      return "given for every point, " + span;
     case PointTimeSource::kRebuilt:
       return std::string("rebuilt from the azimuth (") + (r.info.sweep->clockwise ? "clockwise" : "counter-clockwise") +
              "), " + span;
-    case PointTimeSource::kMixed: return "given in some scans only";
-    default: return "missing";
+    case PointTimeSource::kMixed:
+      return "given in some scans only";
+    default:
+      return "missing";
   }
 }
 
@@ -162,15 +169,16 @@ std::string report_json(const LogReport& r) {
   json["format"] = r.info.format;
   json["scans"] = r.scans;
   json["usable"] = r.usable;
-  json["points"] = {{"median", r.points_median}, {"least", r.points_least}, {"most", r.points_most},
-                    {"intensity", r.has_intensity}, {"ring", r.has_ring}, {"no_return", r.dropped.no_return},
-                    {"not_finite", r.dropped.not_finite}, {"absurd", r.dropped.absurd}};
-  json["sensor"] = {{"beams", r.sensor.beams}, {"beams_from", r.sensor.beams_from}, {"name", r.sensor.name},
-                    {"lowest_deg", r.sensor.lowest_deg}, {"highest_deg", r.sensor.highest_deg},
-                    {"farthest_m", r.sensor.farthest_m}};
-  json["stamps"] = {{"given", r.info.stamps_given}, {"source", r.info.stamps_source},
+  json["points"] = {
+      {"median", r.points_median},          {"least", r.points_least},   {"most", r.points_most},
+      {"intensity", r.has_intensity},       {"ring", r.has_ring},        {"no_return", r.dropped.no_return},
+      {"not_finite", r.dropped.not_finite}, {"absurd", r.dropped.absurd}};
+  json["sensor"] = {
+      {"beams", r.sensor.beams},           {"beams_from", r.sensor.beams_from},   {"name", r.sensor.name},
+      {"lowest_deg", r.sensor.lowest_deg}, {"highest_deg", r.sensor.highest_deg}, {"farthest_m", r.sensor.farthest_m}};
+  json["stamps"] = {{"given", r.info.stamps_given},      {"source", r.info.stamps_source},
                     {"duration_s", r.stamps.duration_s}, {"rate_hz", r.stamps.rate_hz},
-                    {"regular", r.stamps.regular}, {"repeated", r.stamps.repeated},
+                    {"regular", r.stamps.regular},       {"repeated", r.stamps.repeated},
                     {"backwards", r.stamps.backwards}};
   json["stamps"]["gaps"] = list_json(r.stamps.gaps, [](const StampFacts::Gap& gap) {
     return Json{{"before_scan", gap.before}, {"seconds", gap.seconds}};
@@ -181,8 +189,10 @@ std::string report_json(const LogReport& r) {
   json["damaged"] = list_json(r.damaged, [](const DamagedScanFact& fact) {
     return Json{{"scan", fact.index}, {"problem", fact.problem}};
   });
-  json["truth"] = {{"given", r.info.truth_given}, {"source", r.info.truth_source},
-                   {"problem", r.info.truth_problem}, {"length_m", r.truth_length_m}};
+  json["truth"] = {{"given", r.info.truth_given},
+                   {"source", r.info.truth_source},
+                   {"problem", r.info.truth_problem},
+                   {"length_m", r.truth_length_m}};
   json["problem"] = r.info.problem;
   json["next"] = next_command(r);
   return json.dump(2) + "\n";
@@ -202,9 +212,9 @@ std::string report_text(const DatasetReport& r) {
       text += line(name.c_str(), session.session.name + ": " + session.problem);
     } else {
       ++usable;
-      text += line(name.c_str(), session.session.name + format(": %zu scans, frames %zu to %zu, %zu points in the first, ",
-                                                               session.scans, session.first_frame, session.last_frame,
-                                                               session.points) +
+      text += line(name.c_str(), session.session.name +
+                                     format(": %zu scans, frames %zu to %zu, %zu points in the first, ", session.scans,
+                                            session.first_frame, session.last_frame, session.points) +
                                      (session.truth_given ? "with poses" : "without poses"));
     }
   }
@@ -219,9 +229,11 @@ std::string report_json(const DatasetReport& r) {
   json["layout"] = r.layout;
   json["conventions"] = r.description;
   json["sessions"] = list_json(r.sessions, [](const SessionReport& s) {
-    return Json{{"session", s.session.number}, {"name", s.session.name}, {"present", s.session.present},
-                {"scans", s.scans}, {"first_frame", s.first_frame}, {"last_frame", s.last_frame},
-                {"points_of_first", s.points}, {"truth", s.truth_given}, {"problem", s.problem}};
+    return Json{{"session", s.session.number},  {"name", s.session.name},
+                {"present", s.session.present}, {"scans", s.scans},
+                {"first_frame", s.first_frame}, {"last_frame", s.last_frame},
+                {"points_of_first", s.points},  {"truth", s.truth_given},
+                {"problem", s.problem}};
   });
   return json.dump(2) + "\n";
 }

@@ -19,11 +19,8 @@ struct Format {
 
 /// The most particular layouts first: the first that fits is taken.
 constexpr std::array kFormats = {
-    Format{"kitti-raw", io::open_kitti_raw},
-    Format{"mulran", io::open_mulran},
-    Format{"apollo", io::open_apollo},
-    Format{"folder", io::open_folder},
-    Format{"rawlog", io::open_rawlog},
+    Format{"kitti-raw", io::open_kitti_raw}, Format{"mulran", io::open_mulran}, Format{"apollo", io::open_apollo},
+    Format{"folder", io::open_folder},       Format{"rawlog", io::open_rawlog},
 };
 
 std::string known_formats() {
@@ -53,8 +50,8 @@ void require_there(const fs::path& path) {
 void check(const LogOptions& options) {
   require_option(std::isfinite(options.rate_hz) && options.rate_hz > 0.0, "log.rate_hz", "must be above 0");
   require_option(options.max_range_m > 0.0, "log.max_range_m", "must be above 0");
-  require_option(options.bin_columns == 0 || (options.bin_columns >= 3 && options.bin_columns <= 6),
-                 "log.bin_columns", "must be 0 (guess) or 3 to 6");
+  require_option(options.bin_columns == 0 || (options.bin_columns >= 3 && options.bin_columns <= 6), "log.bin_columns",
+                 "must be 0 (guess) or 3 to 6");
   bool known = options.format == "auto" || options.format == "kitti-odometry";
   for (const Format& format : kFormats) {
     known = known || options.format == format.name;

@@ -23,8 +23,8 @@ struct Field {
 struct Header {
   std::vector<Field> fields;
   std::size_t points = 0;
-  std::string data;           ///< ascii, binary, binary_compressed
-  std::size_t size = 0;       ///< bytes of the header
+  std::string data;      ///< ascii, binary, binary_compressed
+  std::size_t size = 0;  ///< bytes of the header
   std::size_t lines = 0;
 
   std::size_t point_bytes() const {

@@ -18,7 +18,7 @@ struct Property {
 struct Header {
   std::string format;
   std::size_t points = 0;
-  std::vector<Property> properties;   ///< of the vertices
+  std::vector<Property> properties;  ///< of the vertices
   std::size_t size = 0;
   std::size_t lines = 0;
 };

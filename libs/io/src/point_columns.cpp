@@ -28,16 +28,26 @@ void copy_as(const Column& column, std::span<const std::uint32_t> kept, Out* out
 template <class Out>
 void copy_column(const Column& column, std::span<const std::uint32_t> kept, Out* out) {
   switch (column.type) {
-    case NumberType::kInt8: return copy_as<std::int8_t>(column, kept, out);
-    case NumberType::kUint8: return copy_as<std::uint8_t>(column, kept, out);
-    case NumberType::kInt16: return copy_as<std::int16_t>(column, kept, out);
-    case NumberType::kUint16: return copy_as<std::uint16_t>(column, kept, out);
-    case NumberType::kInt32: return copy_as<std::int32_t>(column, kept, out);
-    case NumberType::kUint32: return copy_as<std::uint32_t>(column, kept, out);
-    case NumberType::kInt64: return copy_as<std::int64_t>(column, kept, out);
-    case NumberType::kUint64: return copy_as<std::uint64_t>(column, kept, out);
-    case NumberType::kFloat32: return copy_as<float>(column, kept, out);
-    case NumberType::kFloat64: return copy_as<double>(column, kept, out);
+    case NumberType::kInt8:
+      return copy_as<std::int8_t>(column, kept, out);
+    case NumberType::kUint8:
+      return copy_as<std::uint8_t>(column, kept, out);
+    case NumberType::kInt16:
+      return copy_as<std::int16_t>(column, kept, out);
+    case NumberType::kUint16:
+      return copy_as<std::uint16_t>(column, kept, out);
+    case NumberType::kInt32:
+      return copy_as<std::int32_t>(column, kept, out);
+    case NumberType::kUint32:
+      return copy_as<std::uint32_t>(column, kept, out);
+    case NumberType::kInt64:
+      return copy_as<std::int64_t>(column, kept, out);
+    case NumberType::kUint64:
+      return copy_as<std::uint64_t>(column, kept, out);
+    case NumberType::kFloat32:
+      return copy_as<float>(column, kept, out);
+    case NumberType::kFloat64:
+      return copy_as<double>(column, kept, out);
   }
 }
 
@@ -111,13 +121,17 @@ bool coordinates_are(const PointColumns& columns, NumberType type) {
 std::size_t size_of(NumberType type) {
   switch (type) {
     case NumberType::kInt8:
-    case NumberType::kUint8: return 1;
+    case NumberType::kUint8:
+      return 1;
     case NumberType::kInt16:
-    case NumberType::kUint16: return 2;
+    case NumberType::kUint16:
+      return 2;
     case NumberType::kInt32:
     case NumberType::kUint32:
-    case NumberType::kFloat32: return 4;
-    default: return 8;
+    case NumberType::kFloat32:
+      return 4;
+    default:
+      return 8;
   }
 }
 

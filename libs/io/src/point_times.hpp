@@ -9,8 +9,8 @@
 namespace loopmark::io {
 
 struct PointTimes {
-  std::vector<float> offset_s;     ///< seconds; empty when the numbers cannot be times of one sweep
-  std::optional<double> first_s;   ///< absolute time at offset 0, where the file has absolute times
+  std::vector<float> offset_s;    ///< seconds; empty when the numbers cannot be times of one sweep
+  std::optional<double> first_s;  ///< absolute time at offset 0, where the file has absolute times
 };
 
 /// Seconds, ms, us or ns, told apart by size: absolute times (since 1970) by their magnitude, relative ones by

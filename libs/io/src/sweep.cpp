@@ -33,8 +33,8 @@ SweepHint parse_sweep_hint(const std::string& raw) {
   if (contains(text, "motion compensated") || contains(text, "motion-compensated")) {
     hint.motion_compensated = !contains(text, "not motion");
   }
-  const bool counter = contains(text, "counter-clockwise") || contains(text, "counterclockwise") ||
-                       contains(text, "anticlockwise");
+  const bool counter =
+      contains(text, "counter-clockwise") || contains(text, "counterclockwise") || contains(text, "anticlockwise");
   if (!counter && !contains(text, "clockwise")) {
     return hint;
   }
@@ -42,8 +42,9 @@ SweepHint parse_sweep_hint(const std::string& raw) {
   model.clockwise = !counter;
   model.period_s = period_in(text).value_or(model.period_s);
   constexpr double kPi = std::numbers::pi;
-  for (const auto& [words, azimuth] : {std::pair{"seam at the rear", kPi}, std::pair{"seam at the front", 0.0},
-                                       std::pair{"seam at the left", kPi / 2}, std::pair{"seam at the right", -kPi / 2}}) {
+  for (const auto& [words, azimuth] :
+       {std::pair{"seam at the rear", kPi}, std::pair{"seam at the front", 0.0}, std::pair{"seam at the left", kPi / 2},
+        std::pair{"seam at the right", -kPi / 2}}) {
     if (contains(text, words)) {
       model.seam_azimuth_rad = azimuth;
     }

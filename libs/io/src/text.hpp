@@ -25,7 +25,7 @@ std::optional<double> parse_number(std::string_view text);
 std::optional<std::uint64_t> parse_whole(std::string_view text);
 
 struct NumberRow {
-  std::size_t line = 0;   ///< from 1
+  std::size_t line = 0;  ///< from 1
   std::vector<double> values;
 };
 

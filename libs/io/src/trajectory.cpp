@@ -56,8 +56,7 @@ std::string tum_text(const std::vector<double>& stamps_s, const std::vector<Pose
   return text;
 }
 
-void write_tum(const std::filesystem::path& path, const std::vector<double>& stamps_s,
-               const std::vector<Pose>& poses) {
+void write_tum(const std::filesystem::path& path, const std::vector<double>& stamps_s, const std::vector<Pose>& poses) {
   write_file_atomically(path, tum_text(stamps_s, poses));
 }
 

@@ -48,9 +48,9 @@ class FeatureIndex {
   std::size_t leaves_ = 0;
   double largest_ = 0.0;
   std::vector<std::uint32_t> order_;
-  std::vector<float> rows_;     ///< padded descriptors in leaf order
-  std::vector<float> heads_;    ///< bound coordinates of each descriptor in leaf order, [size][kBound]
-  std::vector<float> lanes_;    ///< the same, leaf by leaf, [kBound][kLeaf]
+  std::vector<float> rows_;        ///< padded descriptors in leaf order
+  std::vector<float> heads_;       ///< bound coordinates of each descriptor in leaf order, [size][kBound]
+  std::vector<float> lanes_;       ///< the same, leaf by leaf, [kBound][kLeaf]
   std::vector<float> low_, high_;  ///< boxes, [kBound][leaves]
 };
 

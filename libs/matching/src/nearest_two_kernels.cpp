@@ -41,7 +41,7 @@ std::size_t leaf_hits(const float* q, const float* leaf, float threshold, std::u
   constexpr std::size_t kChunk = 16;
   using Vector = float __attribute__((vector_size(4 * kChunk), aligned(4)));
   using Lanes = int __attribute__((vector_size(4 * kChunk)));
-  constexpr Lanes kLaneBits = {1,      2,      4,      8,      1 << 4,  1 << 5,  1 << 6,  1 << 7,
+  constexpr Lanes kLaneBits = {1,      2,      4,       8,       1 << 4,  1 << 5,  1 << 6,  1 << 7,
                                1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
   using Words = long long __attribute__((vector_size(4 * kChunk)));
   std::size_t count = 0;

@@ -22,7 +22,8 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 using mrpt::obs::CObservationVelodyneScan;
 
-/// d(x, y, z, yaw, pitch, roll) / d(xi) of exp(xi) * pose: the angles' rates turn about z, the yawed y and the yawed and pitched x.
+/// d(x, y, z, yaw, pitch, roll) / d(xi) of exp(xi) * pose: the angles' rates turn about z, the yawed y and the yawed
+/// and pitched x.
 Matrix6d jacobian_of_mrpt_coordinates(const Pose& pose) {
   const Eigen::Vector3d rpy = euler_degrees(pose.linear()) * (M_PI / 180.0);
   const Eigen::Matrix3d yaw = Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()).toRotationMatrix();

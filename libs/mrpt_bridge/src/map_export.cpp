@@ -158,8 +158,8 @@ std::vector<SimpleMapKeyframe> read_simplemap(const fs::path& path) {
     const auto [pdf, frame] = map.get(i);
     mrpt::poses::CPose3DPDFGaussian gaussian;
     gaussian.copyFrom(*pdf);
-    keyframes.push_back({from_mrpt(gaussian.mean), covariance_from_mrpt(gaussian),
-                         scan_from_sensory_frame(*frame).value_or(Scan{})});
+    keyframes.push_back(
+        {from_mrpt(gaussian.mean), covariance_from_mrpt(gaussian), scan_from_sensory_frame(*frame).value_or(Scan{})});
     keyframes.back().scan.index = i;
   }
   return keyframes;

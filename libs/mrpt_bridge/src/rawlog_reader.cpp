@@ -28,9 +28,9 @@ using ObservationPtr = CObservation::Ptr;
 constexpr std::size_t kReadAhead = 8;
 
 struct Entry {
-  std::uint64_t offset = 0;     ///< of the object, uncompressed
-  std::size_t object = 0;       ///< number of the object in the file
-  std::size_t in_frame = 0;     ///< place within a sensory frame
+  std::uint64_t offset = 0;  ///< of the object, uncompressed
+  std::size_t object = 0;    ///< number of the object in the file
+  std::size_t in_frame = 0;  ///< place within a sensory frame
   double stamp_s = 0.0;
   const char* kind = "";
 };
@@ -73,7 +73,7 @@ struct RawlogReader::State {
 
   std::mutex mutex;
   std::unique_ptr<bridge::GzStream> stream;
-  std::size_t next_entry = 0;   ///< the stream stands before or at this entry's object
+  std::size_t next_entry = 0;  ///< the stream stands before or at this entry's object
   std::deque<std::pair<std::size_t, ObservationPtr>> recent;
 
   void index_file();

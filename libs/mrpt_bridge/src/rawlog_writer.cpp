@@ -19,7 +19,7 @@ struct RawlogWriter::State {
   fs::path path;
   fs::path partial;
   std::string label;
-  std::unique_ptr<bridge::GzOutput> file;   ///< none once finished
+  std::unique_ptr<bridge::GzOutput> file;  ///< none once finished
 
   void write(const mrpt::serialization::CSerializable& object) {
     try {

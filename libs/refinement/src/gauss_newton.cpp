@@ -105,8 +105,7 @@ Uncertainty uncertainty_of(const NormalEquations& equations, double residual_var
   const Constraint constraint = constraint_of(equations);
   const Vector6d scale = scale_of(constraint.radius_m);
   const double least = 1.0 / (largest_sigma * largest_sigma);
-  const Vector6d information =
-      (constraint.strengths * (equations.weight / residual_variance)).cwiseMax(least);
+  const Vector6d information = (constraint.strengths * (equations.weight / residual_variance)).cwiseMax(least);
   const Matrix6d to_information = scale.cwiseInverse().asDiagonal() * constraint.directions;
   const Matrix6d to_covariance = scale.asDiagonal() * constraint.directions;
   return {to_information * information.asDiagonal() * to_information.transpose(),

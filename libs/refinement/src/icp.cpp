@@ -37,8 +37,7 @@ Eigen::Vector3d centre_of(const Surface& source, const Pose& T_target_source) {
 
 bool is_small(const Vector6d& xi, const IcpOptions& options) {
   constexpr double kDegree = M_PI / 180.0;
-  return xi.head<3>().norm() < options.stop_translation_m &&
-         xi.tail<3>().norm() < options.stop_rotation_deg * kDegree;
+  return xi.head<3>().norm() < options.stop_translation_m && xi.tail<3>().norm() < options.stop_rotation_deg * kDegree;
 }
 
 /// Inliers, residual, information and weak directions at the final motion.

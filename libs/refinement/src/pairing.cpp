@@ -45,9 +45,9 @@ void keep_best_buddies(const IcpTarget& target, Pairs& pairs, const IcpOptions& 
 /// covariance of a point that is sure along the normal and free in the plane, both scaled by epsilon.
 Eigen::Matrix3d plane_to_plane(const Eigen::Vector3d& target_normal, const Eigen::Vector3d& source_normal) {
   constexpr double kEpsilon = 1e-3;
-  const Eigen::Matrix3d sum = 2.0 * Eigen::Matrix3d::Identity() -
-                              (1.0 - kEpsilon) * (target_normal * target_normal.transpose() +
-                                                  source_normal * source_normal.transpose());
+  const Eigen::Matrix3d sum =
+      2.0 * Eigen::Matrix3d::Identity() -
+      (1.0 - kEpsilon) * (target_normal * target_normal.transpose() + source_normal * source_normal.transpose());
   // Two equal normals leave 2 epsilon along them; the factor makes that a unit of information.
   return 2.0 * kEpsilon * sum.inverse();
 }

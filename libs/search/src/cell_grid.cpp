@@ -35,9 +35,8 @@ CellGrid::CellGrid(const std::vector<Eigen::Vector3f>& points, float cell_m) : c
     if (points[i].cwiseAbs().maxCoeff() / cell_m >= static_cast<float>(kLimit - 2)) {
       throw std::invalid_argument("CellGrid: points too far from the origin for this cell");
     }
-    keyed.emplace_back(
-        key_of(coordinate(points[i].x()), coordinate(points[i].y()), coordinate(points[i].z()), kLimit),
-        static_cast<std::uint32_t>(i));
+    keyed.emplace_back(key_of(coordinate(points[i].x()), coordinate(points[i].y()), coordinate(points[i].z()), kLimit),
+                       static_cast<std::uint32_t>(i));
   }
   std::sort(keyed.begin(), keyed.end());
   x_.reserve(keyed.size());

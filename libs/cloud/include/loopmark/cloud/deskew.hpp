@@ -11,9 +11,9 @@ namespace loopmark {
 
 /// How a spinning sensor sweeps: enough to tell the time of a point from its azimuth.
 struct SweepModel {
-  bool clockwise = true;          ///< seen from above (+z)
+  bool clockwise = true;                             ///< seen from above (+z)
   double seam_azimuth_rad = 3.14159265358979323846;  ///< where a sweep begins and ends; pi: behind, 0: in front
-  double period_s = 0.1;          ///< time of one turn
+  double period_s = 0.1;                             ///< time of one turn
   /// Moment of the sweep that the stamp means: 0 its beginning, 0.5 its middle, 1 its end.
   double stamp_at = 0.5;
 };
@@ -27,7 +27,7 @@ float time_from_azimuth(const Eigen::Vector3f& point, const SweepModel& sweep);
 /// Moves each point to where the sensor would have seen it at the scan's stamp: p' = exp(velocity * t) * p,
 /// for a constant `velocity` ([translation; rotation] a second, in the sensor's frame) and times t (seconds
 /// relative to the stamp, as many as points). Times are rounded to 1/4096 of their span.
-std::vector<Eigen::Vector3f> deskewed(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& time_offset_s,
-                                      const Vector6d& velocity);
+std::vector<Eigen::Vector3f> deskewed(const std::vector<Eigen::Vector3f>& points,
+                                      const std::vector<float>& time_offset_s, const Vector6d& velocity);
 
 }  // namespace loopmark

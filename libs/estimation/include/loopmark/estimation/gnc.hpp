@@ -31,7 +31,8 @@ void describe(Visitor& v, GncOptions& o) {
   v.choice("pruning", o.pruning,
            {{"none", Pruning::kNone}, {"maximum_core", Pruning::kMaximumCore}, {"clique", Pruning::kClique}},
            "what is left of the matches before the motion is estimated");
-  v.field("noise_bound_m", o.noise_bound_m, "matches further off are outliers, metres; distances may differ by twice this");
+  v.field("noise_bound_m", o.noise_bound_m,
+          "matches further off are outliers, metres; distances may differ by twice this");
   v.field("clique_seeds", o.clique_seeds, "matches from which a clique is grown");
   v.field("max_matches", o.max_matches, "only the best matches are used: the graph grows with their square");
   v.field("threshold_m", o.threshold_m, "inliers of the result are closer than this, metres");

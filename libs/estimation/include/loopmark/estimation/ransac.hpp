@@ -69,8 +69,9 @@ void describe(Visitor& v, RansacOptions& o) {
   v.field("confidence", o.confidence, "stop when a better motion was missed with no more than 1 - confidence");
   v.field("min_iterations", o.min_iterations, "minimal sets drawn at least");
   v.field("max_iterations", o.max_iterations, "minimal sets drawn at most");
-  v.field("time_limit_s", o.time_limit_s, "give back the best so far after this time, seconds; 0: no limit (a limit "
-                                          "makes results depend on the machine)");
+  v.field("time_limit_s", o.time_limit_s,
+          "give back the best so far after this time, seconds; 0: no limit (a limit "
+          "makes results depend on the machine)");
   v.field("prosac_growth", o.prosac_growth, "samples after which PROSAC draws from all matches");
   v.field("local_trials", o.local_trials, "least-squares fits in one round of local optimisation");
   v.field("local_sample", o.local_sample, "inliers in each of them");

@@ -8,8 +8,8 @@
 
 namespace loopmark {
 
-/// Second-order spatial consistency: the core of PointDSC (Bai et al. 2021) without what is learned, as in SC2-PCR (Chen
-/// et al. 2022).
+/// Second-order spatial consistency: the core of PointDSC (Bai et al. 2021) without what is learned, as in SC2-PCR
+/// (Chen et al. 2022).
 struct SpatialConsistencyOptions {
   double tolerance_m = 0.6;
   std::size_t seeds = 200;

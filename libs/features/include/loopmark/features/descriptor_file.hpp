@@ -17,8 +17,8 @@ struct DescriptorFile {
 };
 
 /// Reads a .npz archive of NumPy, stored or compressed, as FCGF, D3Feat and others export it: descriptors in an array
-/// "feature", "features", "descriptors" or "descs" of shape (n, d), points in "xyz", "xyz_down", "keypts", "keypoints" or
-/// "points" of shape (n, 3). Throws InputError naming file, array, problem and remedy.
+/// "feature", "features", "descriptors" or "descs" of shape (n, d), points in "xyz", "xyz_down", "keypts", "keypoints"
+/// or "points" of shape (n, 3). Throws InputError naming file, array, problem and remedy.
 DescriptorFile read_descriptors(const std::filesystem::path& npz);
 
 /// Reads the two arrays from two .npy files.

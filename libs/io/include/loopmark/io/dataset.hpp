@@ -14,9 +14,9 @@
 namespace loopmark {
 
 struct DatasetOptions {
-  std::string layout = "auto";    ///< forces a layout
-  std::string version = "auto";   ///< nuScenes: v1.0-trainval, v1.0-test, v1.0-mini
-  LogOptions log;                 ///< for the drives; a section of its own where options come from a file
+  std::string layout = "auto";   ///< forces a layout
+  std::string version = "auto";  ///< nuScenes: v1.0-trainval, v1.0-test, v1.0-mini
+  LogOptions log;                ///< for the drives; a section of its own where options come from a file
 };
 
 template <class Visitor>
@@ -28,9 +28,9 @@ void describe(Visitor& v, DatasetOptions& o) {
 
 /// One drive of a data set.
 struct SessionInfo {
-  int number = 0;                ///< session_ind of the pairs files
-  std::string name;              ///< "08", "scene-0061", "TestData/HighWay237/2018-10-12"
-  std::filesystem::path path;    ///< of the drive; it need not be there (partial copies of a data set)
+  int number = 0;              ///< session_ind of the pairs files
+  std::string name;            ///< "08", "scene-0061", "TestData/HighWay237/2018-10-12"
+  std::filesystem::path path;  ///< of the drive; it need not be there (partial copies of a data set)
   bool present = false;
 };
 
@@ -70,10 +70,11 @@ class Dataset {
 };
 
 /// Finds out the layout of the data set under `root`: KITTI odometry (sequences/NN), KITTI raw
-/// (DATE/DRIVE/velodyne_points), nuScenes (v1.0-*/scene.json), Apollo-SouthBay (TestData/HighWay237/2018-10-12/pcds, ...),
-/// MulRan (DRIVE/Ouster) or a folder of logs (folders and .rawlog files; a sessions.txt there names them). With a
+/// (DATE/DRIVE/velodyne_points), nuScenes (v1.0-*/scene.json), Apollo-SouthBay (TestData/HighWay237/2018-10-12/pcds,
+/// ...), MulRan (DRIVE/Ouster) or a folder of logs (folders and .rawlog files; a sessions.txt there names them). With a
 /// `sessions_file` (lines "NUMBER NAME", the first line may be a header) session NUMBER is the log root/NAME.
-std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& root, const std::filesystem::path& sessions_file = {},
+std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& root,
+                                      const std::filesystem::path& sessions_file = {},
                                       const DatasetOptions& options = {});
 
 }  // namespace loopmark

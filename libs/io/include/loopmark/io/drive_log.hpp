@@ -24,31 +24,31 @@ class DamagedScan : public InputError {
 
 /// What is known of a log before its scans are read.
 struct LogInfo {
-  std::string format;             ///< "kitti-odometry", "kitti-raw", "folder-pcd", "rawlog", ...
-  std::filesystem::path path;     ///< the folder or file that was opened
-  bool stamps_given = false;      ///< stamps come from the log; else from the stated rate
-  bool truth_given = false;       ///< reference poses lie beside the scans
-  std::string stamps_source;      ///< "times.txt", "file names", "rate 10 Hz", ...
-  std::string truth_source;       ///< the file of the reference poses
-  std::string truth_problem;      ///< why poses that lie there are not used; empty when all is well
-  std::string problem;            ///< what is wrong with the log as a whole (a truncated rawlog); empty when nothing is
-  std::optional<SweepModel> sweep;          ///< how the points' times are rebuilt where the log has none
-  std::optional<bool> motion_compensated;   ///< what the log itself says, not measured
+  std::string format;          ///< "kitti-odometry", "kitti-raw", "folder-pcd", "rawlog", ...
+  std::filesystem::path path;  ///< the folder or file that was opened
+  bool stamps_given = false;   ///< stamps come from the log; else from the stated rate
+  bool truth_given = false;    ///< reference poses lie beside the scans
+  std::string stamps_source;   ///< "times.txt", "file names", "rate 10 Hz", ...
+  std::string truth_source;    ///< the file of the reference poses
+  std::string truth_problem;   ///< why poses that lie there are not used; empty when all is well
+  std::string problem;         ///< what is wrong with the log as a whole (a truncated rawlog); empty when nothing is
+  std::optional<SweepModel> sweep;         ///< how the points' times are rebuilt where the log has none
+  std::optional<bool> motion_compensated;  ///< what the log itself says, not measured
 };
 
 /// Points that a reader left out, by reason.
 struct DroppedPoints {
-  std::size_t not_finite = 0;   ///< NaN or infinite coordinates
-  std::size_t absurd = 0;       ///< farther than LogOptions::max_range_m
-  std::size_t no_return = 0;    ///< exactly (0, 0, 0): how many drivers write a beam without echo
+  std::size_t not_finite = 0;  ///< NaN or infinite coordinates
+  std::size_t absurd = 0;      ///< farther than LogOptions::max_range_m
+  std::size_t no_return = 0;   ///< exactly (0, 0, 0): how many drivers write a beam without echo
 };
 
 /// A scan with what reading it showed.
 struct ScanReading {
   Scan scan;
   DroppedPoints dropped;
-  bool times_in_file = false;   ///< per-point times came from the file
-  bool times_rebuilt = false;   ///< per-point times were rebuilt from the azimuth
+  bool times_in_file = false;  ///< per-point times came from the file
+  bool times_rebuilt = false;  ///< per-point times were rebuilt from the azimuth
 };
 
 /// A drive log: its scans in order. Reading is thread-safe and keeps nothing in memory.
@@ -74,12 +74,12 @@ class DriveLog {
 enum class RebuildTimes { kAuto, kNever, kClockwise, kCounterClockwise };
 
 struct LogOptions {
-  double rate_hz = 10.0;          ///< scans per second where the log has no times
-  std::string format = "auto";    ///< forces a format
-  std::string sensor_label;       ///< rawlogs: only observations with this label; empty: the first found
-  std::size_t min_points = 50;    ///< a scan with fewer usable points is damaged
-  double max_range_m = 1000.0;    ///< points beyond are left out as absurd
-  std::size_t bin_columns = 0;    ///< float32 values a point in .bin files; 0: 4, and 5 in .pcd.bin
+  double rate_hz = 10.0;        ///< scans per second where the log has no times
+  std::string format = "auto";  ///< forces a format
+  std::string sensor_label;     ///< rawlogs: only observations with this label; empty: the first found
+  std::size_t min_points = 50;  ///< a scan with fewer usable points is damaged
+  double max_range_m = 1000.0;  ///< points beyond are left out as absurd
+  std::size_t bin_columns = 0;  ///< float32 values a point in .bin files; 0: 4, and 5 in .pcd.bin
   RebuildTimes rebuild_times = RebuildTimes::kAuto;  ///< auto: where the log says how its sensor sweeps
 };
 

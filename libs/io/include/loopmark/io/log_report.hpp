@@ -16,10 +16,10 @@ namespace loopmark {
 /// What the stamps of a log show.
 struct StampFacts {
   double duration_s = 0.0;
-  double rate_hz = 0.0;        ///< one over the median spacing; 0 with fewer than two stamps
-  bool regular = false;        ///< nine of ten spacings within a fifth of the median
+  double rate_hz = 0.0;  ///< one over the median spacing; 0 with fewer than two stamps
+  bool regular = false;  ///< nine of ten spacings within a fifth of the median
   struct Gap {
-    std::size_t before = 0;    ///< the scan at the far end of the gap
+    std::size_t before = 0;  ///< the scan at the far end of the gap
     double seconds = 0.0;
   };
   std::vector<Gap> gaps;               ///< spacings above 1.5 times the median, in regular logs
@@ -30,12 +30,12 @@ StampFacts examine_stamps(const std::vector<double>& stamps_s);
 
 /// What a cloud shows of the sensor that took it.
 struct SensorGuess {
-  std::size_t beams = 0;         ///< 0: cannot be told (thinned clouds)
-  std::string beams_from;        ///< "rings", "order of the points", "elevations"
-  double lowest_deg = 0.0;       ///< elevation of the lowest and highest beam
+  std::size_t beams = 0;    ///< 0: cannot be told (thinned clouds)
+  std::string beams_from;   ///< "rings", "order of the points", "elevations"
+  double lowest_deg = 0.0;  ///< elevation of the lowest and highest beam
   double highest_deg = 0.0;
-  double farthest_m = 0.0;       ///< range that one point in a thousand exceeds
-  std::string name;              ///< "HDL-64E", ...; empty: none that is known
+  double farthest_m = 0.0;  ///< range that one point in a thousand exceeds
+  std::string name;         ///< "HDL-64E", ...; empty: none that is known
 };
 SensorGuess guess_sensor(const PointCloud& cloud);
 
@@ -52,18 +52,18 @@ struct LogReport {
   LogInfo info;
   std::size_t scans = 0;
   std::size_t usable = 0;
-  std::size_t points_least = 0, points_median = 0, points_most = 0;   ///< a usable scan
+  std::size_t points_least = 0, points_median = 0, points_most = 0;  ///< a usable scan
   bool has_intensity = false;
   bool has_ring = false;
-  DroppedPoints dropped;                  ///< sum over all scans
+  DroppedPoints dropped;  ///< sum over all scans
   PointTimeSource point_times = PointTimeSource::kMissing;
-  double sweep_first_s = 0.0, sweep_last_s = 0.0;   ///< median range of the points' times around the stamp
+  double sweep_first_s = 0.0, sweep_last_s = 0.0;  ///< median range of the points' times around the stamp
   StampFacts stamps;
   SensorGuess sensor;
   std::vector<DamagedScanFact> damaged;
-  std::vector<std::size_t> copies;        ///< scans with the very points of the scan before
-  double truth_length_m = 0.0;            ///< length of the reference path
-  std::string compensation;               ///< what was measured about motion compensation; empty: not measured
+  std::vector<std::size_t> copies;  ///< scans with the very points of the scan before
+  double truth_length_m = 0.0;      ///< length of the reference path
+  std::string compensation;         ///< what was measured about motion compensation; empty: not measured
 };
 
 /// Reads every scan of the log once, in parallel, and changes nothing. Throws Interrupted; damaged
@@ -82,9 +82,9 @@ struct SessionReport {
   std::size_t scans = 0;
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;
-  std::size_t points = 0;      ///< of the first scan
+  std::size_t points = 0;  ///< of the first scan
   bool truth_given = false;
-  std::string problem;         ///< why it cannot be used; empty when it can
+  std::string problem;  ///< why it cannot be used; empty when it can
 };
 
 struct DatasetReport {

@@ -16,8 +16,8 @@ namespace loopmark {
 
 /// A cloud as its file has it, without the points that make no sense.
 struct PointFile {
-  PointCloud cloud;                     ///< time_offset_s: as in the file, or since first_time_s
-  std::optional<double> first_time_s;   ///< where the file has absolute times: the earliest, seconds
+  PointCloud cloud;                    ///< time_offset_s: as in the file, or since first_time_s
+  std::optional<double> first_time_s;  ///< where the file has absolute times: the earliest, seconds
   DroppedPoints dropped;
 };
 

@@ -14,8 +14,8 @@ namespace loopmark {
 /// What a sweep.txt beside the scans says, in plain words: "clockwise" or "counter-clockwise", "seam at the
 /// rear" (front, left, right), "0.1 s a sweep", "not motion compensated".
 struct SweepHint {
-  std::optional<SweepModel> model;          ///< set when the direction is said
-  std::optional<bool> motion_compensated;   ///< set when it is said
+  std::optional<SweepModel> model;         ///< set when the direction is said
+  std::optional<bool> motion_compensated;  ///< set when it is said
 };
 SweepHint parse_sweep_hint(const std::string& text);
 

@@ -47,9 +47,9 @@ inline void check(const GpfOptions& o) {
 /// solved exactly instead of by bisection).
 std::size_t water_level(const std::vector<std::size_t>& counts, double wanted);
 
-/// Grid-Prioritized Filtering (paper, Sec. 4 and appendix): an M x M grid in x and y over the matched source points, from
-/// each cell its best matches up to a common number, about phi * |mutual| in all. Returned in the order of quality.
-/// Throws std::invalid_argument when a match names a point that is not there.
+/// Grid-Prioritized Filtering (paper, Sec. 4 and appendix): an M x M grid in x and y over the matched source points,
+/// from each cell its best matches up to a common number, about phi * |mutual| in all. Returned in the order of
+/// quality. Throws std::invalid_argument when a match names a point that is not there.
 Correspondences grid_prioritized_filter(const Correspondences& matches, const std::vector<Eigen::Vector3f>& source,
                                         const GpfOptions& options);
 

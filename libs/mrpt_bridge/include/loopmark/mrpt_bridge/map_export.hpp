@@ -16,7 +16,7 @@ namespace loopmark {
 /// A keyframe as mrpt::maps::CSimpleMap holds it.
 struct SimpleMapKeyframe {
   Pose T_map_keyframe = Pose::Identity();
-  Matrix6d covariance = Matrix6d::Identity();   ///< of xi in exp(xi) * T_map_keyframe
+  Matrix6d covariance = Matrix6d::Identity();  ///< of xi in exp(xi) * T_map_keyframe
   Scan scan;
 };
 
@@ -32,7 +32,7 @@ struct SceneContent {
   std::vector<Pose> trajectory;
   std::vector<Eigen::Vector3f> points;
   std::vector<std::array<std::uint8_t, 3>> colours;
-  std::vector<std::array<std::size_t, 2>> loops;   ///< places in `trajectory` joined by a loop closure
+  std::vector<std::array<std::size_t, 2>> loops;  ///< places in `trajectory` joined by a loop closure
 };
 
 /// Writes a scene for MRPT's SceneViewer3D: trajectory, loop closures, points, a grid. Needs no display.

@@ -17,8 +17,8 @@ namespace loopmark {
 /// whole file once; reading scans in order costs no more than reading the file. Thread-safe.
 class RawlogReader {
  public:
-  /// Only observations with `sensor_label`; empty: those of the first LiDAR found. Throws InputError when the file cannot be
-  /// read or holds no usable scan.
+  /// Only observations with `sensor_label`; empty: those of the first LiDAR found. Throws InputError when the file
+  /// cannot be read or holds no usable scan.
   RawlogReader(const std::filesystem::path& path, const std::string& sensor_label);
   ~RawlogReader();
 
@@ -33,7 +33,8 @@ class RawlogReader {
   /// What is wrong with the file behind its last usable scan ("truncated at byte 123"); empty when nothing is.
   const std::string& problem() const;
 
-  /// Poses T_world_sensor that the log holds as CObservationRobotPose labelled "truth" or "ground_truth", with their stamps.
+  /// Poses T_world_sensor that the log holds as CObservationRobotPose labelled "truth" or "ground_truth", with their
+  /// stamps.
   struct Truth {
     std::vector<double> stamps_s;
     std::vector<Pose> poses;

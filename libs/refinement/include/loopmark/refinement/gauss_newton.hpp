@@ -17,10 +17,10 @@ namespace loopmark {
 struct NormalEquations {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
-  double cost = 0.0;              ///< sum of weight * squared residual
-  double weight = 0.0;            ///< sum of weights
-  double squared_radius = 0.0;    ///< sum of weight * |moved|^2
-  std::size_t residuals = 0;      ///< scalar residuals: 3 a point pair, 1 a plane or general pair
+  double cost = 0.0;            ///< sum of weight * squared residual
+  double weight = 0.0;          ///< sum of weights
+  double squared_radius = 0.0;  ///< sum of weight * |moved|^2
+  std::size_t residuals = 0;    ///< scalar residuals: 3 a point pair, 1 a plane or general pair
   std::size_t pairs = 0;
 
   /// Point to point: e = moved - target.

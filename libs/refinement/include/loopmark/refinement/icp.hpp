@@ -45,13 +45,13 @@ struct IcpResult {
   bool converged = false;
   IcpStop stop = IcpStop::kIterationLimit;
   std::size_t iterations = 0;
-  std::size_t inliers = 0;       ///< pairs at the final motion
-  double inlier_share = 0.0;     ///< of the source points
-  double rms_m = 0.0;            ///< root-mean-square residual of the metric, metres
+  std::size_t inliers = 0;                  ///< pairs at the final motion
+  double inlier_share = 0.0;                ///< of the source points
+  double rms_m = 0.0;                       ///< root-mean-square residual of the metric, metres
   Matrix6d information = Matrix6d::Zero();  ///< of xi in exp(xi) * T_target_source
   Matrix6d covariance = Matrix6d::Zero();   ///< its inverse; wide, not infinite, along free directions
-  Constraint constraint;         ///< point-to-plane constraint where the target has normals
-  int weak_directions = 0;       ///< directions weaker than the option weak_strength
+  Constraint constraint;                    ///< point-to-plane constraint where the target has normals
+  int weak_directions = 0;                  ///< directions weaker than the option weak_strength
 
   /// One line for logs.
   std::string summary() const;

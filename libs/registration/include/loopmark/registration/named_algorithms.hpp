@@ -13,7 +13,7 @@ namespace loopmark {
 struct NamedAlgorithm {
   std::string name;
   std::string summary;
-  std::string ablation;   ///< the part of the RANSAC and GPF ablation to which it belongs; empty: none
+  std::string ablation;  ///< the part of the RANSAC and GPF ablation to which it belongs; empty: none
   PaperOptions options;
 };
 

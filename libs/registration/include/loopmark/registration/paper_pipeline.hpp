@@ -18,10 +18,10 @@ namespace loopmark {
 
 /// A scan made ready for matching.
 struct DescribedScan {
-  Surface surface;                            ///< downsampled points, and normals where they were computed
-  std::vector<Eigen::Vector3f> keypoints;     ///< the points that have a descriptor, one a row
+  Surface surface;                         ///< downsampled points, and normals where they were computed
+  std::vector<Eigen::Vector3f> keypoints;  ///< the points that have a descriptor, one a row
   DescriptorMatrix descriptors;
-  std::vector<StageTime> timings;             ///< "downsample", "normals", "descriptors"
+  std::vector<StageTime> timings;  ///< "downsample", "normals", "descriptors"
 };
 
 /// Downsampling, normals and FPFH of one scan (points in the sensor's frame, metres).
@@ -34,16 +34,16 @@ DescribedScan described_scan(std::vector<Eigen::Vector3f> keypoints, DescriptorM
 
 /// What the pipeline found, with what happened on the way.
 struct PaperResult {
-  Pose T_target_source = Pose::Identity();   ///< after refinement, where it is on
-  Pose T_coarse = Pose::Identity();          ///< of the estimator
+  Pose T_target_source = Pose::Identity();  ///< after refinement, where it is on
+  Pose T_coarse = Pose::Identity();         ///< of the estimator
   bool found = false;
   Estimate estimate;
   IcpResult refinement;
-  std::size_t matches = 0;                   ///< one a source keypoint
+  std::size_t matches = 0;  ///< one a source keypoint
   std::size_t mutual_matches = 0;
-  std::size_t used_matches = 0;              ///< after filtering
-  Correspondences used;                      ///< these, in the order of quality
-  std::vector<StageTime> timings;            ///< "nearest", "filter", "estimate", "refine"
+  std::size_t used_matches = 0;    ///< after filtering
+  Correspondences used;            ///< these, in the order of quality
+  std::vector<StageTime> timings;  ///< "nearest", "filter", "estimate", "refine"
 
   /// The paper's accounting ("Algo. only"): filtering and estimation. Downsampling, descriptors and the search for
   /// neighbours are left out; of the latter the paper counts the second neighbour, which is found here

@@ -17,8 +17,8 @@ struct Patch {
   float height = 0.0F;     ///< of the mean above the ground below it, metres
 };
 
-/// Patches by voxel; nearest-patch queries look at the voxel and its 26 neighbours. Voxels are kept in bricks of 4 x 4 x 4
-/// with one bit each, so that empty neighbours cost a bit test and not a search.
+/// Patches by voxel; nearest-patch queries look at the voxel and its 26 neighbours. Voxels are kept in bricks of 4 x 4
+/// x 4 with one bit each, so that empty neighbours cost a bit test and not a search.
 class PatchMap {
  public:
   PatchMap() : bricks_(0) {}
