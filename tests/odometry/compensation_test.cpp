@@ -13,7 +13,7 @@ enum class Sweep { kCompensated, kClockwise, kCounterClockwise };
 
 /// Ten scans of a drive through a street at `speed` metres a second.
 std::vector<Scan> drive(double speed, Sweep kind, bool with_times) {
-  const testing::BoxWorld world = testing::street(60.0, 5);
+  const testing_support::BoxWorld world = testing_support::street(60.0, 5);
   Vector6d velocity = Vector6d::Zero();
   velocity[0] = speed;
   velocity[5] = speed > 0.0 ? 0.5 : 0.0;  // house fronts along the road show no motion along it
@@ -24,7 +24,7 @@ std::vector<Scan> drive(double speed, Sweep kind, bool with_times) {
     const Vector6d seen = kind == Sweep::kCompensated ? Vector6d::Zero().eval()
                           : kind == Sweep::kClockwise ? velocity
                                                       : (-velocity).eval();
-    PointCloud cloud = testing::sweep(world, T_world_lidar, seen, 0.02, i);
+    PointCloud cloud = testing_support::sweep(world, T_world_lidar, seen, 0.02, i);
     if (!with_times) {
       cloud.time_offset_s.clear();
     } else if (kind == Sweep::kCounterClockwise) {

@@ -11,16 +11,16 @@
 namespace loopmark {
 namespace {
 
-using testing::BoxWorld;
+using testing_support::BoxWorld;
 
 /// A drive along a street at a constant speed with a gentle turn rate.
 struct Drive {
-  BoxWorld world = testing::street(120.0, 5);
+  BoxWorld world = testing_support::street(120.0, 5);
   Vector6d velocity = (Vector6d() << 10.0, 0.0, 0.0, 0.0, 0.0, 0.05).finished();
 
   Pose pose(double time_s) const { return pose_from_yaw(-0.05, {0.0, 0.0, 1.8}) * exp_se3(time_s * velocity); }
   Scan scan(std::size_t index, double time_s) const {
-    return {index, time_s, testing::sweep(world, pose(time_s), velocity, 0.02, index)};
+    return {index, time_s, testing_support::sweep(world, pose(time_s), velocity, 0.02, index)};
   }
 };
 
@@ -72,7 +72,7 @@ TEST(Odometry, SaysThatItIsLostInAnotherPlace) {
     odometry.commit(odometry.track(drive.scan(i, 0.1 * static_cast<double>(i))));
   }
   Drive elsewhere;
-  elsewhere.world = testing::street(120.0, 77);
+  elsewhere.world = testing_support::street(120.0, 77);
   const TrackedScan tracked = odometry.track(elsewhere.scan(6, 6.6));
   EXPECT_EQ(tracked.health.tracking, Tracking::kLost);
   EXPECT_FALSE(tracked.health.reason.empty());
@@ -87,7 +87,7 @@ TEST(Odometry, WidensAlongACorridorWithoutFeatures) {
   TrackedScan tracked;
   for (std::size_t i = 0; i < 3; ++i) {
     const Pose pose = pose_from_yaw(0.0, {0.3 * static_cast<double>(i), 0.0, 1.8});
-    tracked = odometry.track({i, 0.1 * static_cast<double>(i), testing::sweep(corridor, pose, Vector6d::Zero(), 0.02, i)});
+    tracked = odometry.track({i, 0.1 * static_cast<double>(i), testing_support::sweep(corridor, pose, Vector6d::Zero(), 0.02, i)});
     odometry.commit(tracked);
   }
   ASSERT_EQ(tracked.health.degenerate_directions.size(), 1U);

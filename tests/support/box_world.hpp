@@ -11,7 +11,7 @@
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/core/random.hpp"
 
-namespace loopmark::testing {
+namespace loopmark::testing_support {
 
 struct Box {
   Eigen::Vector3d low;
@@ -85,4 +85,4 @@ inline PointCloud sweep(const BoxWorld& world, const Pose& T_world_lidar, const 
   return cloud;
 }
 
-}  // namespace loopmark::testing
+}  // namespace loopmark::testing_support

@@ -46,6 +46,15 @@ std::vector<Eigen::Vector3d> moved(const std::vector<Eigen::Vector3f>& points, c
 
 bool better(const Health& a, const Health& b) { return a.inlier_share > b.inlier_share; }
 
+/// At the start of a piece: rings of the ground that fit while nothing holds a direction are no evidence of standing.
+bool better_start(const Health& a, const Health& b) {
+  constexpr double kUnheld = 0.8;
+  const auto score = [](const Health& health) {
+    return health.inlier_share * (health.degenerate_directions.empty() ? 1.0 : kUnheld);
+  };
+  return score(a) > score(b);
+}
+
 bool same_place(const Pose& a, const Pose& b, double distance_m) {
   constexpr double kSameDegrees = 5.0;
   const PoseError error = pose_error(a, b);
@@ -256,8 +265,9 @@ TrackedScan Odometry::best_of_wide(const TrackedScan& prepared, const TrackedSca
       align_to_deskewed_first(answer);
     }
   }
+  const auto ahead = committed_ == 1 ? better_start : better;
   std::stable_sort(answers.begin(), answers.end(),
-                   [](const TrackedScan& a, const TrackedScan& b) { return better(a.health, b.health); });
+                   [&](const TrackedScan& a, const TrackedScan& b) { return ahead(a.health, b.health); });
   TrackedScan& best = answers.front();
   for (const TrackedScan& other : answers) {
     if (!same_place(other.T_map_lidar, best.T_map_lidar, map_->voxel_m())) {

@@ -61,11 +61,16 @@ std::vector<Rgb> colours(const PointCloud& cloud) {
 }  // namespace
 
 OccupancyStatistics write_occupancy(const RunFolder& folder, const SolvedMap& map, const OccupancyOptions& options) {
-  OccupancyMapBuilder builder(options, folder / "records");
+  const std::filesystem::path scratch = folder / "records/scratch";
+  std::filesystem::remove_all(scratch);  // what a killed run may have left
+  std::filesystem::create_directory(scratch);
+  OccupancyMapBuilder builder(options, scratch);
   for (const std::size_t number : keyframes_in(map, kMain)) {
     builder.insert(read_keyframe_cloud(folder, number).points, map.T_map_keyframe[number]);
   }
-  return builder.write(folder / "map.bt", folder / "map.ot");
+  const OccupancyStatistics statistics = builder.write(folder / "map.bt", folder / "map.ot");
+  std::filesystem::remove_all(scratch);
+  return statistics;
 }
 
 void write_clouds(const RunFolder& folder, const SolvedMap& map, double voxel_m) {

@@ -77,7 +77,9 @@ void Mapper::load() {
     piece_ = std::max(piece_, scan.piece);
     bad_scans_ += scan.state == ScanState::kDamaged ? 1 : 0;
   }
-  keyframes_ = keyframes_of(scans_);
+  for (const ScanRecord& scan : scans_) {
+    path_.add(scan, keyframes_);
+  }
   loops_ = read_all(folder_.loop_records(), loop_from_line);
 }
 
@@ -191,18 +193,8 @@ void Mapper::keep_keyframe(const Scan& scan, ScanRecord& record) {
 const ScanRecord& Mapper::keep(ScanRecord record) {
   scan_file_->append(to_line(record));
   scans_.push_back(std::move(record));
-  const ScanRecord& kept = scans_.back();
-  if (kept.keyframe) {
-    double path_m = 0.0;
-    if (!keyframes_.empty()) {
-      path_m = keyframes_.back().path_m;
-      if (keyframes_.back().piece == kept.piece) {
-        path_m += (keyframes_.back().T_piece_lidar.inverse() * kept.T_piece_lidar).translation().norm();
-      }
-    }
-    keyframes_.push_back({*kept.keyframe, kept.scan, kept.piece, kept.T_piece_lidar, kept.covariance, path_m});
-  }
-  return kept;
+  path_.add(scans_.back(), keyframes_);
+  return scans_.back();
 }
 
 void Mapper::add_damaged(std::size_t scan, double stamp_s, const std::string& problem) {

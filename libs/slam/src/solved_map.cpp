@@ -139,21 +139,26 @@ void place_scans(SolvedMap& map, const std::vector<ScanRecord>& scans) {
 
 }  // namespace
 
+void DrivenPath::add(const ScanRecord& scan, std::vector<Keyframe>& keyframes) {
+  if (scan.state == ScanState::kDamaged) {
+    return;
+  }
+  if (started_ && piece_ == scan.piece) {
+    path_m_ += (last_.inverse() * scan.T_piece_lidar).translation().norm();
+  }
+  started_ = true;
+  piece_ = scan.piece;
+  last_ = scan.T_piece_lidar;
+  if (scan.keyframe) {
+    keyframes.push_back({*scan.keyframe, scan.scan, scan.piece, scan.T_piece_lidar, scan.covariance, path_m_});
+  }
+}
+
 std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans) {
   std::vector<Keyframe> keyframes;
-  double path_m = 0.0;
-  const ScanRecord* last = nullptr;
+  DrivenPath path;
   for (const ScanRecord& scan : scans) {
-    if (scan.state == ScanState::kDamaged) {
-      continue;
-    }
-    if (last != nullptr && last->piece == scan.piece) {
-      path_m += (last->T_piece_lidar.inverse() * scan.T_piece_lidar).translation().norm();
-    }
-    last = &scan;
-    if (scan.keyframe) {
-      keyframes.push_back({*scan.keyframe, scan.scan, scan.piece, scan.T_piece_lidar, scan.covariance, path_m});
-    }
+    path.add(scan, keyframes);
   }
   return keyframes;
 }

@@ -71,6 +71,7 @@ class Mapper {
   std::size_t bad_scans_ = 0;
   std::vector<ScanRecord> scans_;
   std::vector<Keyframe> keyframes_;
+  DrivenPath path_;
   std::vector<LoopRecord> loops_;
   std::unique_ptr<RecordWriter> scan_file_;
   std::unique_ptr<RecordWriter> loop_file_;

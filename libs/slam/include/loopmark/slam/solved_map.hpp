@@ -22,6 +22,19 @@ struct Keyframe {
   double path_m = 0.0;      ///< driven since the start of the log
 };
 
+/// Follows the scans of a log: the distance driven, and the keyframes among them.
+class DrivenPath {
+ public:
+  /// The next scan; appended to `keyframes` where it is one.
+  void add(const ScanRecord& scan, std::vector<Keyframe>& keyframes);
+
+ private:
+  double path_m_ = 0.0;
+  bool started_ = false;
+  std::size_t piece_ = 0;
+  Pose last_ = Pose::Identity();
+};
+
 /// The keyframes that the scan records name, in order.
 std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans);
 
