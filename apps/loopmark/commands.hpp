@@ -11,10 +11,12 @@ Action set_up_config(CLI::App& command, const Globals& globals);
 Action set_up_balance(CLI::App& command, const Globals& globals);
 Action set_up_doctor(CLI::App& command, const Globals& globals);
 Action set_up_evaluate(CLI::App& command, const Globals& globals);
+Action set_up_loops(CLI::App& command, const Globals& globals);
 Action set_up_map(CLI::App& command, const Globals& globals);
 Action set_up_relocalize(CLI::App& command, const Globals& globals);
 Action set_up_register(CLI::App& command, const Globals& globals);
 Action set_up_replay(CLI::App& command, const Globals& globals);
 Action set_up_simulate(CLI::App& command, const Globals& globals);
+Action set_up_why(CLI::App& command, const Globals& globals);
 
 }  // namespace loopmark::app

@@ -36,24 +36,24 @@ Path path_of(const std::vector<Pose>& poses) {
   return path;
 }
 
-std::vector<Pose> odometry_of(const Mapper& mapper) {
+std::vector<Pose> odometry_of(const std::vector<ScanRecord>& scans) {
   std::vector<Pose> poses;
-  for (const ScanRecord& scan : mapper.scans()) {
+  for (const ScanRecord& scan : scans) {
     poses.push_back(scan.T_piece_lidar);
   }
   return poses;
 }
 
-Plot trajectory_plot(const Mapper& mapper, const SolvedMap& map) {
-  const Path odometry = path_of(odometry_of(mapper));
+Plot trajectory_plot(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops, const SolvedMap& map) {
+  const Path odometry = path_of(odometry_of(scans));
   const Path solved = path_of(map.T_map_scan);
   Plot plot("Trajectory", "x [m]", "y [m]");
   plot.equal_axes();
   plot.line("odometry", odometry.x, odometry.y, {.dashed = true}).line("map", solved.x, solved.y);
   for (std::size_t i = 0; i < map.loops.size(); ++i) {
     if (map.loops[i].accepted) {
-      const Eigen::Vector3d a = map.T_map_keyframe[mapper.loops()[i].source].translation();
-      const Eigen::Vector3d b = map.T_map_keyframe[mapper.loops()[i].target].translation();
+      const Eigen::Vector3d a = map.T_map_keyframe[loops[i].source].translation();
+      const Eigen::Vector3d b = map.T_map_keyframe[loops[i].target].translation();
       plot.line("", {a.x(), b.x()}, {a.y(), b.y()}, {.colour = report::palette(3), .width = 1.0});
     }
   }
@@ -71,17 +71,17 @@ Plot against_scan(const std::string& title, const std::string& axis, const std::
 }
 
 /// How far the loops have moved each scan from where odometry alone put it.
-Plot drift_plot(const Mapper& mapper, const SolvedMap& map) {
+Plot drift_plot(const std::vector<ScanRecord>& scans, const SolvedMap& map) {
   std::vector<double> moved;
   for (std::size_t i = 0; i < map.T_map_scan.size(); ++i) {
-    moved.push_back((map.T_map_scan[i].translation() - mapper.scans()[i].T_piece_lidar.translation()).norm());
+    moved.push_back((map.T_map_scan[i].translation() - scans[i].T_piece_lidar.translation()).norm());
   }
   return against_scan("Drift corrected", "moved by the loops [m]", moved);
 }
 
-Plot health_plot(const Mapper& mapper) {
+Plot health_plot(const std::vector<ScanRecord>& scans) {
   std::vector<double> share;
-  for (const ScanRecord& scan : mapper.scans()) {
+  for (const ScanRecord& scan : scans) {
     share.push_back(scan.inlier_share);
   }
   return against_scan("Tracking", "share of points that fit the map", share);
@@ -94,10 +94,10 @@ Plot timing_plot(const MapTimes& t) {
   return plot;
 }
 
-Table loop_table(const Mapper& mapper, const SolvedMap& map) {
+Table loop_table(const std::vector<LoopRecord>& loops, const SolvedMap& map) {
   Table table({"source scan", "target scan", "proposed by", "accepted", "P(correct)", "reason"});
   for (std::size_t i = 0; i < map.loops.size(); ++i) {
-    const LoopRecord& loop = mapper.loops()[i];
+    const LoopRecord& loop = loops[i];
     table.row({report::count_cell(map.keyframes[loop.source].scan), report::count_cell(map.keyframes[loop.target].scan),
                loop.origin, map.loops[i].accepted ? "yes" : "no", report::number_cell(loop.p_correct, 3),
                map.loops[i].reason});
@@ -131,15 +131,16 @@ Rows rows(const MapSummary& s, const MapTimes& t) {
 
 }  // namespace
 
-void write_map_report(const RunFolder& folder, const Mapper& mapper, const SolvedMap& map, const MapSummary& summary,
+void write_map_report(const RunFolder& folder, const std::vector<ScanRecord>& scans,
+                      const std::vector<LoopRecord>& loops, const SolvedMap& map, const MapSummary& summary,
                       const MapTimes& times, const std::vector<Pose>& truth) {
   Page page("Map", folder.name().string());
   page.facts(rows(summary, times));
   page.heading("Trajectory");
-  Plot trajectory = trajectory_plot(mapper, map);
+  Plot trajectory = trajectory_plot(scans, loops, map);
   page.plot(trajectory, truth.empty() ? "" : trajectory_error_definitions());
-  page.heading("Drift and tracking").plots({drift_plot(mapper, map), health_plot(mapper)});
-  page.heading("Loops").table(loop_table(mapper, map));
+  page.heading("Drift and tracking").plots({drift_plot(scans, map), health_plot(scans)});
+  page.heading("Loops").table(loop_table(loops, map));
   page.heading("Time").plot(timing_plot(times));
   write_file_atomically(folder / "report.html", page.html());
 }

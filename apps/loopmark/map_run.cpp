@@ -146,10 +146,30 @@ std::vector<Pose> truth_of(const DriveLog& log, const std::filesystem::path& fil
   return truth;
 }
 
-MapSummary summarize(const Mapper& mapper, const SolvedMap& map, const std::vector<Pose>& truth) {
+/// What a run is judged by stays with it, so that it can be judged again without the log.
+void keep_truth(const RunFolder& folder, const DriveLog& log, const std::vector<Pose>& truth) {
+  std::vector<double> stamps_s;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    stamps_s.push_back(log.stamp_s(i));
+  }
+  if (!truth.empty()) {
+    write_tum(truth_file(folder), stamps_s, truth);
+  }
+}
+
+}  // namespace
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+MapSummary summarize(const std::vector<ScanRecord>& scans, const SolvedMap& map, const std::vector<Pose>& truth) {
   MapSummary s;
-  s.scans = mapper.scans().size();
-  for (const ScanRecord& scan : mapper.scans()) {
+  s.scans = scans.size();
+  for (const ScanRecord& scan : scans) {
     s.recovered += scan.state == ScanState::kRecovered ? 1 : 0;
     if (scan.state == ScanState::kDamaged) {
       ++s.damaged;
@@ -162,27 +182,18 @@ MapSummary summarize(const Mapper& mapper, const SolvedMap& map, const std::vect
       std::count_if(map.loops.begin(), map.loops.end(), [](const LoopVerdict& loop) { return loop.accepted; }));
   s.components = map.components;
   s.path_m = map.keyframes.back().path_m;
-  s.duration_s = mapper.scans().back().stamp_s - mapper.scans().front().stamp_s;
+  s.duration_s = scans.back().stamp_s - scans.front().stamp_s;
   if (!truth.empty()) {
     s.absolute = absolute_error(map.T_map_scan, truth);
     s.kitti = kitti_error(map.T_map_scan, truth);
     std::vector<Pose> odometry;
-    for (const ScanRecord& scan : mapper.scans()) {
+    for (const ScanRecord& scan : scans) {
       odometry.push_back(scan.T_piece_lidar);
     }
     s.absolute_odometry = absolute_error(odometry, truth);
   }
   return s;
 }
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-  return text;
-}
-
-}  // namespace
 
 Compensation compensation_of(const DriveLog& log, const SlamOptions& options) {
   if (options.compensation != Compensation::kUnknown) {
@@ -205,6 +216,7 @@ MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& option
   MapTimes& times = outcome.times;
   const std::unique_ptr<DriveLog> log = open_log(job.log, options.log);
   const std::vector<Pose> truth = truth_of(*log, job.truth);
+  keep_truth(folder, *log, truth);
   const Compensation compensation = compensation_of(*log, options.slam);
 
   Mapper mapper(folder, {options.odometry, options.slam, options.pose_graph}, engine_registrar(options.registration),
@@ -224,10 +236,10 @@ MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& option
   write_clouds(folder, map, options.slam.cloud_voxel_m);
   write_mrpt_products(folder, mapper.scans(), mapper.loops(), map);
   times.products = part.seconds();
-  outcome.summary = summarize(mapper, map, truth);
+  outcome.summary = summarize(mapper.scans(), map, truth);
   outcome.summary.compensation = name(compensation);
   times.whole = whole.seconds();
-  write_map_report(folder, mapper, map, outcome.summary, times, truth);
+  write_map_report(folder, mapper.scans(), mapper.loops(), map, outcome.summary, times, truth);
   write_summary(folder, outcome.summary, times);
   write_manifest(folder, {{"map", job.log.string()}, job.log.string(), "", started, times.whole, 0});
   folder.finish();

@@ -59,11 +59,21 @@ Compensation compensation_of(const DriveLog& log, const SlamOptions& options);
 /// From a log to a whole run folder. Throws InputError (the partial run stays) or Interrupted (it can be resumed).
 MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options);
 
+/// The time, as manifests name it (ISO 8601, UTC).
+std::string utc_now();
+
+/// records/truth.tum: the true pose of every scan, where it was known.
+inline std::filesystem::path truth_file(const RunFolder& folder) { return folder / "records/truth.tum"; }
+
+/// What the map came to, but for `compensation`. `truth`: one pose for every scan, or none.
+MapSummary summarize(const std::vector<ScanRecord>& scans, const SolvedMap& map, const std::vector<Pose>& truth);
+
 /// summary.json: no times, so that the same run gives the same bytes. timings.json: the times.
 void write_summary(const RunFolder& folder, const MapSummary& summary, const MapTimes& times);
 
 /// report.html: trajectory, loops, drift, timing.
-void write_map_report(const RunFolder& folder, const Mapper& mapper, const SolvedMap& map, const MapSummary& summary,
+void write_map_report(const RunFolder& folder, const std::vector<ScanRecord>& scans,
+                      const std::vector<LoopRecord>& loops, const SolvedMap& map, const MapSummary& summary,
                       const MapTimes& times, const std::vector<Pose>& truth);
 
 /// The table at the end, for people.

@@ -49,8 +49,8 @@ void declare(CLI::App& command, RelocalizeArguments& a) {
 std::vector<RelocalizedScan> place_scans(const RelocalizeArguments& a, const AppOptions& options, const DriveLog& log) {
   const RunFolder run = RunFolder::open(a.run);
   const AppOptions made_with = config::load<AppOptions>(run / "config.yaml", {});
-  const SolvedMap solved =
-      solve_map(read_scan_records(run), read_loop_records(run), made_with.slam, made_with.pose_graph);
+  const SolvedMap solved = solve_map(read_scan_records(run), read_loop_records(run), made_with.slam,
+                                     made_with.pose_graph, read_loop_decisions(run));
   const auto map = open_place_map(run, solved, options.relocalization, options.registration);
   const Compensation compensation = compensation_of(log, options.slam);
   const auto new_relocalizer = [&] {

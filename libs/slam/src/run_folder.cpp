@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/slam/run_folder.hpp"
 
+#include <fcntl.h>
+
 #include <cstdio>
 #include <utility>
 
@@ -41,7 +43,8 @@ RunFolder RunFolder::create(const fs::path& run) {
     fs::create_directories(path / "keyframes", error);
   }
   if (error) {
-    throw InputError(path.string(), "", "cannot be made: " + error.message(), "choose a folder that can be written for -o");
+    throw InputError(path.string(), "", "cannot be made: " + error.message(),
+                     "choose a folder that can be written for -o");
   }
   return {path, name};
 }
@@ -51,7 +54,8 @@ RunFolder RunFolder::resume(const fs::path& run) {
     throw InputError(plain(run).string(), "", "the run is whole", "there is nothing to resume");
   }
   if (!fs::exists(partial(run) / "records")) {
-    throw InputError(partial(run).string(), "", "there is no interrupted run", "start one with: loopmark map LOG -o RUN");
+    throw InputError(partial(run).string(), "", "there is no interrupted run",
+                     "start one with: loopmark map LOG -o RUN");
   }
   return {partial(run), plain(run)};
 }
@@ -63,6 +67,20 @@ RunFolder RunFolder::open(const fs::path& run) {
                      interrupted ? "finish it with: loopmark map --resume " + plain(run).string() : "");
   }
   return {plain(run), plain(run)};
+}
+
+RunFolder RunFolder::revise(const fs::path& run) {
+  const RunFolder old = open(run);
+  const fs::path path = partial(run);
+  if (fs::exists(path)) {
+    throw InputError(path.string(), "", "an unfinished change of the run is there", "delete it, then try again");
+  }
+  std::error_code error;
+  fs::create_directories(path / "records", error);
+  if (error) {
+    throw InputError(path.string(), "", "cannot be made: " + error.message(), "write a new run with -o");
+  }
+  return {path, old.path()};
 }
 
 fs::path RunFolder::keyframe(std::size_t number, const std::string& ending) const {
@@ -78,6 +96,22 @@ void RunFolder::finish() {
     throw InputError(path_.string(), "", "cannot be renamed to " + name_.string() + ": " + error.message());
   }
   path_ = name_;
+}
+
+fs::path RunFolder::finish_revision() {
+  fs::path before;
+  for (std::size_t i = 1; before.empty() || fs::exists(before); ++i) {
+    before = name_.string() + ".before-" + std::to_string(i);
+  }
+  // Both names change hands at once where the file system can do that, so that RUN is there at any moment.
+  if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, name_.c_str(), RENAME_EXCHANGE) == 0) {
+    fs::rename(path_, before);
+    path_ = name_;
+  } else {
+    fs::rename(name_, before);
+    finish();
+  }
+  return before;
 }
 
 }  // namespace loopmark

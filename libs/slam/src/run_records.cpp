@@ -22,4 +22,12 @@ std::vector<LoopRecord> read_loop_records(const RunFolder& run) {
   return records;
 }
 
+void write_loop_records(const RunFolder& run, const std::vector<LoopRecord>& records) {
+  std::filesystem::remove(run.loop_records());
+  RecordWriter file(run.loop_records());
+  for (const LoopRecord& record : records) {
+    file.append(to_line(record));
+  }
+}
+
 }  // namespace loopmark

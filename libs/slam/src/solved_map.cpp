@@ -8,8 +8,6 @@
 namespace loopmark {
 namespace {
 
-constexpr std::size_t kNoEdge = static_cast<std::size_t>(-1);
-
 /// Covariance of the motion between two keyframes: the later one's alignment, and drift over the distance.
 Matrix6d odometry_covariance(const Keyframe& from, const Keyframe& to, const SlamOptions& options) {
   const double distance = to.path_m - from.path_m;
@@ -38,45 +36,50 @@ void add_odometry(SolvedMap& map, const SlamOptions& options) {
   }
 }
 
-/// The loops that may take part; returns for each record its edge, or kNoEdge with the reason in its verdict.
-std::vector<std::size_t> add_loops(SolvedMap& map, const std::vector<LoopRecord>& loops, const SlamOptions& options) {
-  std::vector<std::size_t> edge_of(loops.size(), kNoEdge);
+/// The loops that may take part get an edge, the others a reason.
+void add_loops(SolvedMap& map, const std::vector<LoopRecord>& loops, const SlamOptions& options,
+               const std::vector<LoopDecision>& decisions) {
   map.loops.resize(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const LoopRecord& loop = loops[i];
-    if (!loop.answered) {
+    const std::optional<Ruling> ruling = ruling_on(decisions, loop.source, loop.target);
+    const bool forced = ruling == Ruling::kForce;
+    if (ruling == Ruling::kVeto) {
+      map.loops[i].reason = to_string(*ruling);
+    } else if (!loop.answered && !forced) {
       map.loops[i].reason = loop.reason;
-    } else if (loop.p_correct < options.min_loop_p) {
+    } else if (loop.p_correct < options.min_loop_p && !forced) {
       map.loops[i].reason = "P(correct) below min_loop_p";
-    } else if (map.keyframes[loop.source].piece == map.keyframes[loop.target].piece &&
+    } else if (!forced && map.keyframes[loop.source].piece == map.keyframes[loop.target].piece &&
                loop.T_target_source.translation().norm() > options.max_loop_m) {
       map.loops[i].reason = "seen from farther apart than max_loop_m";
     } else {
-      edge_of[i] = map.graph.edges.size();
-      map.graph.edges.push_back({loop.target, loop.source, loop.T_target_source,
-                                 information_from_covariance(loop.covariance, options.loop_floor_m, options.loop_floor_deg),
-                                 EdgeKind::kLoop});
+      map.loops[i].edge = map.graph.edges.size();
+      map.graph.edges.push_back(
+          {loop.target, loop.source, loop.T_target_source,
+           information_from_covariance(loop.covariance, options.loop_floor_m, options.loop_floor_deg),
+           forced ? EdgeKind::kForced : EdgeKind::kLoop});
     }
   }
-  return edge_of;
 }
 
-void judge_loops(SolvedMap& map, const std::vector<std::size_t>& edge_of) {
-  for (std::size_t i = 0; i < edge_of.size(); ++i) {
-    if (edge_of[i] == kNoEdge) {
+void judge_loops(SolvedMap& map) {
+  for (LoopVerdict& verdict : map.loops) {
+    if (!verdict.edge) {
       continue;
     }
-    const EdgeReport& report = map.solution.edges[edge_of[i]];
-    LoopVerdict& verdict = map.loops[i];
+    const EdgeReport& report = map.solution.edges[*verdict.edge];
+    const bool forced = map.graph.edges[*verdict.edge].kind == EdgeKind::kForced;
     verdict.accepted = report.verdict == EdgeVerdict::kAccepted;
-    verdict.reason = verdict.accepted ? "" : to_string(report.verdict);
+    verdict.reason = forced ? to_string(Ruling::kForce) : verdict.accepted ? "" : to_string(report.verdict);
     verdict.weight = report.weight;
     verdict.chi2 = report.chi2;
   }
 }
 
 /// What the solution has moved a scan by: between the corrections of the keyframes before and behind it.
-Pose correction(const SolvedMap& map, const std::vector<ScanRecord>& scans, std::size_t before, const ScanRecord& scan) {
+Pose correction(const SolvedMap& map, const std::vector<ScanRecord>& scans, std::size_t before,
+                const ScanRecord& scan) {
   const auto of_keyframe = [&](std::size_t k) {
     return map.T_map_keyframe[k] * map.keyframes[k].T_piece_lidar.inverse();
   };
@@ -164,16 +167,17 @@ std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans) {
 }
 
 SolvedMap solve_map(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops,
-                    const SlamOptions& options, const PoseGraphOptions& graph_options) {
+                    const SlamOptions& options, const PoseGraphOptions& graph_options,
+                    const std::vector<LoopDecision>& decisions) {
   SolvedMap map;
   map.keyframes = keyframes_of(scans);
   add_odometry(map, options);
-  const std::vector<std::size_t> edge_of = add_loops(map, loops, options);
+  add_loops(map, loops, options, decisions);
   map.graph.anchors = {0};
   map.solution = optimize(map.graph, graph_options);
   map.T_map_keyframe = map.solution.T_map_node;
   map.components = map.solution.components.size();
-  judge_loops(map, edge_of);
+  judge_loops(map);
   place_scans(map, scans);
   return map;
 }

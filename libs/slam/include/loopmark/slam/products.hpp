@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,12 @@ void write_mrpt_products(const RunFolder& folder, const std::vector<ScanRecord>&
 /// What stands in manifest.json besides the outputs' hashes.
 struct Manifest {
   std::vector<std::string> arguments;
-  std::string log;             ///< path of the input
-  std::string input_sha256;    ///< over the number of points and the CRC-32 of every scan as it was read
-  std::string started;         ///< ISO 8601, UTC
-  double seconds = 0.0;        ///< of this process
+  std::string log;           ///< path of the input
+  std::string input_sha256;  ///< over the number of points and the CRC-32 of every scan as it was read
+  std::string started;       ///< ISO 8601, UTC
+  double seconds = 0.0;      ///< of this process
   int exit_status = 0;
+  std::map<std::string, std::string> known_sha256 = {};  ///< of files known not to have changed, by path in the run
 };
 
 /// manifest.json: version, arguments, times, exit status, and the SHA-256 of every file of the run but itself.

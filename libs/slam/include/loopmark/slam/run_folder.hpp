@@ -20,6 +20,10 @@ class RunFolder {
   /// A run that is whole. Throws InputError when it is not there or not whole.
   static RunFolder open(const std::filesystem::path& run);
 
+  /// A run that is to take the place of `run`: RUN.partial beside it. Throws InputError when RUN is not whole or
+  /// RUN.partial is there.
+  static RunFolder revise(const std::filesystem::path& run);
+
   const std::filesystem::path& path() const { return path_; }  ///< where it is now
   const std::filesystem::path& name() const { return name_; }  ///< where it will be
   std::filesystem::path operator/(const std::string& file) const { return path_ / file; }
@@ -31,6 +35,9 @@ class RunFolder {
 
   /// Gives the run its name.
   void finish();
+
+  /// The same for a revised run; the one that had the name is kept as RUN.before-1 (or -2, ...), which is returned.
+  std::filesystem::path finish_revision();
 
  private:
   RunFolder(std::filesystem::path path, std::filesystem::path name);

@@ -9,6 +9,9 @@
 
 namespace loopmark {
 
+/// Replaces the loop records of a run that is being made.
+void write_loop_records(const RunFolder& run, const std::vector<LoopRecord>& records);
+
 /// What a run remembers, in order. Throws InputError when a record is damaged.
 std::vector<ScanRecord> read_scan_records(const RunFolder& run);
 std::vector<LoopRecord> read_loop_records(const RunFolder& run);

@@ -3,10 +3,12 @@
 /// From records to a map's poses: needs no scan, so that it can be repeated in seconds with other loops.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "loopmark/pose_graph/pose_graph.hpp"
+#include "loopmark/slam/loop_decisions.hpp"
 #include "loopmark/slam/options.hpp"
 #include "loopmark/slam/records.hpp"
 
@@ -14,12 +16,12 @@ namespace loopmark {
 
 /// A scan that stands for its surroundings.
 struct Keyframe {
-  std::size_t number = 0;   ///< place among the keyframes; its files are named by it
+  std::size_t number = 0;  ///< place among the keyframes; its files are named by it
   std::size_t scan = 0;
   std::size_t piece = 0;
   Pose T_piece_lidar = Pose::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< of xi in T_piece_lidar * exp(xi), against the local map
-  double path_m = 0.0;      ///< driven since the start of the log
+  double path_m = 0.0;                     ///< driven since the start of the log
 };
 
 /// Follows the scans of a log: the distance driven, and the keyframes among them.
@@ -41,26 +43,29 @@ std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans);
 /// What became of a loop candidate.
 struct LoopVerdict {
   bool accepted = false;
-  std::string reason;        ///< why not
-  double weight = 0.0;       ///< in the solved graph
-  double chi2 = 0.0;         ///< of its residual in the solved graph; 0 where it did not take part
+  std::string reason;               ///< why not, or that a person wanted it
+  double weight = 0.0;              ///< in the solved graph
+  double chi2 = 0.0;                ///< of its residual in the solved graph; 0 where it did not take part
+  std::optional<std::size_t> edge;  ///< in the graph; nothing where it did not take part
 };
 
 struct SolvedMap {
   std::vector<Keyframe> keyframes;
   std::vector<Pose> T_map_keyframe;
-  std::vector<Pose> T_map_scan;             ///< one for every scan of the log, in order
-  std::vector<Matrix6d> covariance;         ///< of xi in exp(xi) * T_map_scan, for every scan
-  std::vector<std::size_t> component;       ///< of every scan; 0 is the one that holds the first scan
+  std::vector<Pose> T_map_scan;        ///< one for every scan of the log, in order
+  std::vector<Matrix6d> covariance;    ///< of xi in exp(xi) * T_map_scan, for every scan
+  std::vector<std::size_t> component;  ///< of every scan; 0 is the one that holds the first scan
   std::size_t components = 0;
-  std::vector<LoopVerdict> loops;           ///< one for each loop record
+  std::vector<LoopVerdict> loops;  ///< one for each loop record
   PoseGraph graph;
   PoseGraphSolution solution;
 };
 
-/// Odometry edges within the pieces, the loops that registration is sure of, and the robust solution.
+/// Odometry edges within the pieces, the loops that registration is sure of, and the robust solution. Loops that
+/// `decisions` veto are left out, those that they force are trusted.
 /// `scans`: one for every scan of the log, in order; at least one keyframe.
 SolvedMap solve_map(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops,
-                    const SlamOptions& options, const PoseGraphOptions& graph_options);
+                    const SlamOptions& options, const PoseGraphOptions& graph_options,
+                    const std::vector<LoopDecision>& decisions = {});
 
 }  // namespace loopmark

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// What loops and why share: a whole run with all it remembers, and pairs of scans as people name them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app_options.hpp"
+#include "loopmark/slam/loop_decisions.hpp"
+#include "loopmark/slam/records.hpp"
+#include "loopmark/slam/run_folder.hpp"
+#include "loopmark/slam/solved_map.hpp"
+
+namespace loopmark::app {
+
+struct OpenedRun {
+  RunFolder folder;
+  AppOptions options;  ///< the run was made with
+  std::vector<ScanRecord> scans;
+  std::vector<LoopRecord> loops;
+  std::vector<LoopDecision> decisions;
+
+  SolvedMap solve() const { return solve_map(scans, loops, options.slam, options.pose_graph, decisions); }
+};
+
+/// Throws InputError when there is no whole run or it holds no keyframe. `settings` change the run's options.
+OpenedRun open_run(const std::filesystem::path& run, const std::vector<std::string>& settings = {});
+
+/// Two keyframes, the later one first.
+struct KeyframePair {
+  std::size_t source = 0;
+  std::size_t target = 0;
+};
+
+/// The keyframe that a word names: "120" is a scan of the log that is a keyframe, "k12" a keyframe by its number.
+/// `nearest`: a scan that is none stands for the keyframe before it (or the first one). Throws InputError otherwise.
+std::size_t keyframe_named(const std::string& word, const OpenedRun& run, const std::vector<Keyframe>& keyframes,
+                           bool nearest);
+
+/// "I-J" in either order. Throws InputError when it is no pair or both are the same keyframe.
+KeyframePair pair_named(const std::string& text, const OpenedRun& run, const std::vector<Keyframe>& keyframes);
+
+/// The record of a pair, or run.loops.size().
+std::size_t loop_of(const OpenedRun& run, const KeyframePair& pair);
+
+}  // namespace loopmark::app
