@@ -66,9 +66,9 @@ ProgramResult map(const fs::path& log, const fs::path& run, std::vector<std::str
   return RunningProgram(words).wait();
 }
 
-const char* const kProducts[] = {"trajectory.tum", "trajectory.kitti", "covariances.csv", "pose_graph.g2o", "loops.csv",
-                                 "map.bt",         "map.ot",           "cloud.ply",       "map.simplemap",  "map.3Dscene",
-                                 "config.yaml",    "summary.json"};
+const char* const kProducts[] = {"trajectory.tum", "trajectory.kitti", "covariances.csv", "pose_graph.g2o",
+                                 "loops.csv",      "map.bt",           "map.ot",          "cloud.ply",
+                                 "map.simplemap",  "map.3Dscene",      "config.yaml",     "summary.json"};
 
 void expect_same_products(const fs::path& a, const fs::path& b) {
   for (const char* const product : kProducts) {
@@ -136,7 +136,9 @@ TEST(Map, SkipsDamagedScansUpToALimit) {
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, testing::HasSubstr("2 damaged"));
   EXPECT_EQ(read_trajectory(run / "trajectory.tum").poses.size(), static_cast<std::size_t>(kScans));
-  EXPECT_LT(absolute_error(read_trajectory(run / "trajectory.tum").poses, read_trajectory(log / "poses.txt").poses).max_m, 0.3);
+  EXPECT_LT(
+      absolute_error(read_trajectory(run / "trajectory.tum").poses, read_trajectory(log / "poses.txt").poses).max_m,
+      0.3);
 
   const ProgramResult strict = map(log, new_run("strict"), {"--set", "slam.max_bad_scans=1"});
   EXPECT_EQ(strict.exit_code, 2);

@@ -50,8 +50,8 @@ CompensationMeasurement measure(const std::vector<Scan>& scans) {
   for (const Scan& scan : scans) {
     window.push_back(scan.index);
   }
-  return measure_compensation({window}, [&](std::size_t i) { return scans[i]; },
-                              !scans.front().cloud.time_offset_s.empty());
+  return measure_compensation(
+      {window}, [&](std::size_t i) { return scans[i]; }, !scans.front().cloud.time_offset_s.empty());
 }
 
 /// In a world as small and coarse as this one the measurement may abstain; what it says must be right.

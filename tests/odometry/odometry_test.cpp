@@ -87,7 +87,8 @@ TEST(Odometry, WidensAlongACorridorWithoutFeatures) {
   TrackedScan tracked;
   for (std::size_t i = 0; i < 3; ++i) {
     const Pose pose = pose_from_yaw(0.0, {0.3 * static_cast<double>(i), 0.0, 1.8});
-    tracked = odometry.track({i, 0.1 * static_cast<double>(i), testing_support::sweep(corridor, pose, Vector6d::Zero(), 0.02, i)});
+    tracked = odometry.track(
+        {i, 0.1 * static_cast<double>(i), testing_support::sweep(corridor, pose, Vector6d::Zero(), 0.02, i)});
     odometry.commit(tracked);
   }
   ASSERT_EQ(tracked.health.degenerate_directions.size(), 1U);

@@ -26,9 +26,9 @@ RelocalizedScan scan(std::size_t index, State state, bool answered, double x = 0
   return s;
 }
 
-const std::vector<RelocalizedScan> kScans = {scan(0, State::kSearching, false), scan(1, State::kSearching, true, 1.0),
-                                             scan(2, State::kTracking, true, 2.0), scan(3, State::kLost, false),
-                                             scan(4, State::kSearching, false), scan(5, State::kTracking, true, 7.0)};
+const std::vector<RelocalizedScan> kScans = {
+    scan(0, State::kSearching, false), scan(1, State::kSearching, true, 1.0), scan(2, State::kTracking, true, 2.0),
+    scan(3, State::kLost, false),      scan(4, State::kSearching, false),     scan(5, State::kTracking, true, 7.0)};
 
 TEST(RelocalizationSummary, CountsAnswersLossesAndRecoveries) {
   const RelocalizationSummary s = summarize(kScans);
@@ -57,7 +57,8 @@ TEST(RelocalizationSummary, JudgesThroughTheNearestScanOfTheMap) {
 }
 
 TEST(WriteRelocalization, WritesARowAScanAndTheAnswers) {
-  const auto folder = std::filesystem::temp_directory_path() / ("loopmark_relocalization_" + std::to_string(::getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("loopmark_relocalization_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   write_relocalization(folder, kScans, summarize(kScans));
   const std::string csv = read_file(folder / "relocalization.csv");

@@ -12,10 +12,10 @@
 namespace loopmark {
 namespace {
 
-constexpr std::size_t kBlock = 512;          // keypoints of one partial sum
-constexpr double kNoPlaneWeight = 0.2;       // of a match whose surface is no plane
-constexpr double kInlierVoxels = 0.2;        // an inlier is nearer to its surface than this many voxels
-constexpr double kConverged = 1e-4;          // step, metres and radians
+constexpr std::size_t kBlock = 512;     // keypoints of one partial sum
+constexpr double kNoPlaneWeight = 0.2;  // of a match whose surface is no plane
+constexpr double kInlierVoxels = 0.2;   // an inlier is nearer to its surface than this many voxels
+constexpr double kConverged = 1e-4;     // step, metres and radians
 
 /// Sums over the keypoints. The tangent is [translation; rotation about the sensor], both along the map's axes.
 struct NormalEquations {
@@ -94,7 +94,8 @@ void step(Pose& T, const Vector6d& xi) {
 }
 
 /// Translations that the planes hardly hold once the rotation is free: small eigenvalues of the Schur complement.
-std::vector<Eigen::Vector3d> weak_directions(const Matrix6d& H, std::size_t keypoints, const Pose& T, double least_share) {
+std::vector<Eigen::Vector3d> weak_directions(const Matrix6d& H, std::size_t keypoints, const Pose& T,
+                                             double least_share) {
   const Eigen::Matrix3d rotation_part = H.bottomRightCorner<3, 3>() + 1e-9 * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d schur =
       H.topLeftCorner<3, 3>() - H.topRightCorner<3, 3>() * rotation_part.inverse() * H.bottomLeftCorner<3, 3>();
@@ -131,7 +132,8 @@ Health judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T, 
   Health health;
   health.keypoints = keypoints;
   health.inlier_share = keypoints > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(keypoints) : 0.0;
-  health.unmapped_share = keypoints > 0 ? 1.0 - static_cast<double>(sums.matches) / static_cast<double>(keypoints) : 1.0;
+  health.unmapped_share =
+      keypoints > 0 ? 1.0 - static_cast<double>(sums.matches) / static_cast<double>(keypoints) : 1.0;
   health.fit_share = sums.matches > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(sums.matches) : 0.0;
   health.residual_m = sums.inliers > 0 ? std::sqrt(sums.squares / static_cast<double>(sums.inliers)) : 0.0;
   health.degenerate_directions = weak_directions(sums.H_planes, keypoints, T, options.degenerate_share);

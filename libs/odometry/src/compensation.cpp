@@ -11,8 +11,8 @@
 namespace loopmark {
 namespace {
 
-constexpr std::size_t kWarmUp = 3;        ///< scans of a window that only fill the local map
-constexpr double kLeastMotion_m = 0.08;   ///< a sweep that moves the sensor less is not bent enough to tell
+constexpr std::size_t kWarmUp = 3;       ///< scans of a window that only fill the local map
+constexpr double kLeastMotion_m = 0.08;  ///< a sweep that moves the sensor less is not bent enough to tell
 constexpr double kLeastSigmas = 3.0;
 
 /// What one scan showed under one assumption.
@@ -30,8 +30,8 @@ std::vector<Sample> follow(const std::vector<std::size_t>& window, const std::fu
     const TrackedScan tracked = odometry.track(read(window[i]));
     odometry.commit(tracked);
     if (i >= kWarmUp) {
-      samples.push_back({tracked.health.residual_m, tracked.velocity.head<3>().norm(),
-                         tracked.health.tracking == Tracking::kLost});
+      samples.push_back(
+          {tracked.health.residual_m, tracked.velocity.head<3>().norm(), tracked.health.tracking == Tracking::kLost});
     }
   }
   return samples;
@@ -140,11 +140,16 @@ CompensationMeasurement measure_compensation(const std::vector<std::vector<std::
 
 const char* compensation_name(Compensation compensation) {
   switch (compensation) {
-    case Compensation::kCompensated: return "motion-compensated";
-    case Compensation::kRawGivenTimes: return "raw, with the time of each point";
-    case Compensation::kRawClockwise: return "raw, sweeping clockwise";
-    case Compensation::kRawCounterClockwise: return "raw, sweeping counter-clockwise";
-    default: return "unknown";
+    case Compensation::kCompensated:
+      return "motion-compensated";
+    case Compensation::kRawGivenTimes:
+      return "raw, with the time of each point";
+    case Compensation::kRawClockwise:
+      return "raw, sweeping clockwise";
+    case Compensation::kRawCounterClockwise:
+      return "raw, sweeping counter-clockwise";
+    default:
+      return "unknown";
   }
 }
 

@@ -79,7 +79,8 @@ void LocalMap::insert(const std::vector<Eigen::Vector3d>& points) {
   }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  parallel_for(changed.size(), [&](std::size_t i) { renew_normals(changed[i]); }, 64);
+  parallel_for(
+      changed.size(), [&](std::size_t i) { renew_normals(changed[i]); }, 64);
 }
 
 void LocalMap::renew_normals(std::uint32_t index) {
@@ -142,7 +143,8 @@ bool LocalMap::nearest(const Eigen::Vector3d& query, double max_distance, MapMat
           continue;
         }
         const Cell& cell = cells_[index];
-        const Eigen::Vector3f from = inside - Eigen::Vector3f(static_cast<float>(dx), static_cast<float>(dy), static_cast<float>(dz)) * edge;
+        const Eigen::Vector3f from =
+            inside - Eigen::Vector3f(static_cast<float>(dx), static_cast<float>(dy), static_cast<float>(dz)) * edge;
         for (std::uint32_t p = 0; p < cell.count; ++p) {
           const float distance = (cell.offset[p] - from).squaredNorm();
           if (distance < best) {

@@ -12,11 +12,11 @@
 namespace loopmark {
 namespace {
 
-constexpr double kSampleVoxels = 0.5;   // points for the map: one in a cell of this many voxels
-constexpr double kCoarse = 3.0;         // voxel of the coarse map against the fine one's
-constexpr double kLeverM = 20.0;        // a rotation error counts as what it moves at this range
-constexpr std::size_t kMemory = 20;     // deviations that the threshold remembers
-constexpr double kUsualGapS = 0.2;      // longer gaps between scans make the prediction less certain
+constexpr double kSampleVoxels = 0.5;  // points for the map: one in a cell of this many voxels
+constexpr double kCoarse = 3.0;        // voxel of the coarse map against the fine one's
+constexpr double kLeverM = 20.0;       // a rotation error counts as what it moves at this range
+constexpr std::size_t kMemory = 20;    // deviations that the threshold remembers
+constexpr double kUsualGapS = 0.2;     // longer gaps between scans make the prediction less certain
 
 std::vector<std::size_t> in_range(const std::vector<Eigen::Vector3f>& points, const OdometryOptions& options) {
   const auto least = static_cast<float>(options.min_range_m * options.min_range_m);
@@ -111,7 +111,9 @@ TrackedScan Odometry::prepare(const Scan& scan) const {
       thin.time_offset_s.push_back(scan.cloud.time_offset_s[i]);
     }
   }
-  const double voxel_m = map_ ? map_->voxel_m() : options_.voxel_m > 0.0 ? options_.voxel_m : voxel_for_scene(thin.points);
+  const double voxel_m = map_                     ? map_->voxel_m()
+                         : options_.voxel_m > 0.0 ? options_.voxel_m
+                                                  : voxel_for_scene(thin.points);
   tracked.sample = select(thin, voxel_first_indices(thin.points, kSampleVoxels * voxel_m));
   if (deskews()) {
     tracked.sample.time_offset_s = times(tracked.sample);
@@ -200,7 +202,8 @@ std::vector<Odometry::Start> Odometry::shortlist(const TrackedScan& prepared, co
   parallel_for(starts.size(), [&](std::size_t i) {
     found[i] = align(points, *coarse_, starts[i].T_map_lidar, coarse_->voxel_m(), quick);
   });
-  std::stable_sort(found.begin(), found.end(), [](const Alignment& a, const Alignment& b) { return better(a.health, b.health); });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Alignment& a, const Alignment& b) { return better(a.health, b.health); });
   std::vector<Start> kept;
   for (const Alignment& candidate : found) {
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const Start& start) {
@@ -222,7 +225,8 @@ double Odometry::threshold(double gap_s) const {
     squares += d * d;
   }
   const double usual = 3.0 * std::sqrt(squares / static_cast<double>(deviations_.size()));
-  return std::clamp(usual * std::max(1.0, gap_s / kUsualGapS), options_.min_threshold_m * map_->voxel_m(), map_->voxel_m());
+  return std::clamp(usual * std::max(1.0, gap_s / kUsualGapS), options_.min_threshold_m * map_->voxel_m(),
+                    map_->voxel_m());
 }
 
 TrackedScan Odometry::track(const Scan& scan) const {
@@ -315,7 +319,8 @@ void Odometry::judge(TrackedScan& tracked) const {
   if (doubtful && health.margin < options_.min_margin) {
     health.tracking = Tracking::kLost;
     health.reason = "few points fit the map, and elsewhere hardly fewer";
-  } else if (committed_ > 1 && gap_s > 0.0 && change.head<3>().norm() > options_.max_acceleration * std::max(gap_s, 0.1)) {
+  } else if (committed_ > 1 && gap_s > 0.0 &&
+             change.head<3>().norm() > options_.max_acceleration * std::max(gap_s, 0.1)) {
     health.tracking = Tracking::kLost;
     health.reason = "the motion jumps";
   }

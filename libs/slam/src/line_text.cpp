@@ -20,7 +20,8 @@ LineWriter& LineWriter::number(double value) {
 
 LineWriter& LineWriter::word(const std::string& value) {
   std::string safe = value.empty() ? "-" : value;
-  std::replace_if(safe.begin(), safe.end(), [](char c) { return c == ' ' || c == '\n'; }, '_');
+  std::replace_if(
+      safe.begin(), safe.end(), [](char c) { return c == ' ' || c == '\n'; }, '_');
   text_ += (text_.empty() ? "" : " ") + safe;
   return *this;
 }

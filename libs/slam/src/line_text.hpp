@@ -13,11 +13,11 @@ class LineWriter {
  public:
   LineWriter& whole(std::size_t value);
   LineWriter& number(double value);
-  LineWriter& word(const std::string& value);          ///< blanks become underscores
+  LineWriter& word(const std::string& value);  ///< blanks become underscores
   LineWriter& pose(const Pose& value);
   LineWriter& vector(const Vector6d& value);
-  LineWriter& symmetric(const Matrix6d& value);        ///< its upper triangle
-  LineWriter& rest(const std::string& value);          ///< last; may hold blanks
+  LineWriter& symmetric(const Matrix6d& value);  ///< its upper triangle
+  LineWriter& rest(const std::string& value);    ///< last; may hold blanks
   const std::string& text() const { return text_; }
 
  private:

@@ -28,7 +28,9 @@ std::vector<std::size_t> keyframes_in(const SolvedMap& map, std::size_t componen
 /// Blue (low) over green to red (high), between -2 m and 10 m above the first scan.
 Rgb height_colour(float z) {
   const float ratio = std::clamp((z + 2.0F) / 12.0F, 0.0F, 1.0F);
-  const auto channel = [](float value) { return static_cast<std::uint8_t>(255.0F * std::clamp(value, 0.0F, 1.0F) + 0.5F); };
+  const auto channel = [](float value) {
+    return static_cast<std::uint8_t>(255.0F * std::clamp(value, 0.0F, 1.0F) + 0.5F);
+  };
   return {channel(2.0F * ratio - 0.5F), channel(1.4F - std::abs(2.8F * ratio - 1.2F)), channel(1.3F - 2.2F * ratio)};
 }
 

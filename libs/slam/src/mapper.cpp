@@ -52,7 +52,10 @@ struct Mapper::Placed {
 
 Mapper::Mapper(const RunFolder& folder, const MapperOptions& options, std::shared_ptr<const Registrar> registrar,
                Compensation compensation, const SweepModel& sweep)
-    : folder_(folder), options_(options), registrar_(std::move(registrar)), odometry_(options.odometry, compensation, sweep) {
+    : folder_(folder),
+      options_(options),
+      registrar_(std::move(registrar)),
+      odometry_(options.odometry, compensation, sweep) {
   check(options_.slam);
   load();
   scan_file_ = std::make_unique<RecordWriter>(folder_.scan_records());
@@ -147,7 +150,8 @@ bool Mapper::recover(const Scan& scan, Placed& placed) const {
     if (keyframe.piece != piece_) {
       break;
     }
-    const RegistrationResult result = registrar_->align(source, read_file(folder_.keyframe(keyframe.number, "prepared")));
+    const RegistrationResult result =
+        registrar_->align(source, read_file(folder_.keyframe(keyframe.number, "prepared")));
     if (!result.answered) {
       continue;
     }
@@ -207,7 +211,8 @@ void Mapper::add_damaged(std::size_t scan, double stamp_s, const std::string& pr
   record.problem = problem;
   keep(std::move(record));
   if (++bad_scans_ > options_.slam.max_bad_scans) {
-    throw InputError(std::to_string(bad_scans_) + " damaged scans, more than max_bad_scans allows; the last: " + problem);
+    throw InputError(std::to_string(bad_scans_) +
+                     " damaged scans, more than max_bad_scans allows; the last: " + problem);
   }
 }
 

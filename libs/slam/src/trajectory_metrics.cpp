@@ -55,7 +55,8 @@ KittiError kitti_error(const std::vector<Pose>& estimate, const std::vector<Pose
         break;
       }
       const auto last = static_cast<std::size_t>(end - driven.begin());
-      const PoseError piece = pose_error(estimate[first].inverse() * estimate[last], truth[first].inverse() * truth[last]);
+      const PoseError piece =
+          pose_error(estimate[first].inverse() * estimate[last], truth[first].inverse() * truth[last]);
       error.translation_percent += 100.0 * piece.translation_m / length;
       error.rotation_deg_per_m += piece.rotation_deg / length;
       ++error.pieces;

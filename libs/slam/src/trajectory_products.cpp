@@ -63,8 +63,9 @@ std::set<std::string> evidence_names(const std::vector<LoopRecord>& loops) {
 
 std::string loops_csv(const std::vector<LoopRecord>& loops, const SolvedMap& map) {
   const std::set<std::string> names = evidence_names(loops);
-  std::string text = "source_scan,target_scan,source_keyframe,target_keyframe,origin,accepted,reason,p_correct,"
-                     "x,y,z,roll_deg,pitch_deg,yaw_deg,weight,chi2";
+  std::string text =
+      "source_scan,target_scan,source_keyframe,target_keyframe,origin,accepted,reason,p_correct,"
+      "x,y,z,roll_deg,pitch_deg,yaw_deg,weight,chi2";
   for (const std::string& evidence : names) {
     text += "," + evidence;
   }
@@ -73,10 +74,11 @@ std::string loops_csv(const std::vector<LoopRecord>& loops, const SolvedMap& map
     const LoopRecord& loop = loops[i];
     const Eigen::Vector3d t = loop.T_target_source.translation();
     const Eigen::Vector3d rpy = euler_degrees(loop.T_target_source.linear());
-    text += std::to_string(map.keyframes[loop.source].scan) + "," + std::to_string(map.keyframes[loop.target].scan) + "," +
-            std::to_string(loop.source) + "," + std::to_string(loop.target) + "," + loop.origin + "," +
+    text += std::to_string(map.keyframes[loop.source].scan) + "," + std::to_string(map.keyframes[loop.target].scan) +
+            "," + std::to_string(loop.source) + "," + std::to_string(loop.target) + "," + loop.origin + "," +
             (map.loops[i].accepted ? "1" : "0") + "," + quoted(map.loops[i].reason) + "," + number(loop.p_correct);
-    for (const double value : {t.x(), t.y(), t.z(), rpy.x(), rpy.y(), rpy.z(), map.loops[i].weight, map.loops[i].chi2}) {
+    for (const double value :
+         {t.x(), t.y(), t.z(), rpy.x(), rpy.y(), rpy.z(), map.loops[i].weight, map.loops[i].chi2}) {
       text += "," + number(value);
     }
     for (const std::string& evidence : names) {

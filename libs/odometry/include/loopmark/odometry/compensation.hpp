@@ -17,15 +17,15 @@ namespace loopmark {
 /// How well the scans fit each other under one assumption.
 struct CompensationTrial {
   Compensation assumption = Compensation::kUnknown;
-  double residual_m = 0.0;   ///< mean over the scans of Health::residual_m
+  double residual_m = 0.0;  ///< mean over the scans of Health::residual_m
 };
 
 struct CompensationMeasurement {
   Compensation verdict = Compensation::kUnknown;
-  std::string reason;                       ///< why it cannot be told; empty when it can
-  std::vector<CompensationTrial> trials;    ///< every assumption that was tried
-  double speed_m_s = 0.0;                   ///< median over the scans
-  double sigmas = 0.0;                      ///< by how many standard errors the best is ahead of the second best
+  std::string reason;                     ///< why it cannot be told; empty when it can
+  std::vector<CompensationTrial> trials;  ///< every assumption that was tried
+  double speed_m_s = 0.0;                 ///< median over the scans
+  double sigmas = 0.0;                    ///< by how many standard errors the best is ahead of the second best
 };
 
 /// Follows the sensor through each window of consecutive scans (at least 8; `read` is called from several threads) once

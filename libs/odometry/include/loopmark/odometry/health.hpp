@@ -26,7 +26,7 @@ struct Health {
   double fit_share = 0.0;       ///< the same, of the keypoints that have a point of the map nearby
   /// Inliers against those of the best answer elsewhere around; 0: not looked for, as enough points fit.
   double margin = 0.0;
-  double residual_m = 0.0;      ///< root mean square distance of the inliers across their surfaces
+  double residual_m = 0.0;  ///< root mean square distance of the inliers across their surfaces
   std::size_t iterations = 0;
   bool converged = false;
   /// Directions of translation (unit vectors, lidar frame) that hardly any surface holds.

@@ -20,10 +20,10 @@ namespace loopmark {
 struct TrackedScan {
   std::size_t index = 0;
   double stamp_s = 0.0;
-  Pose T_map_lidar = Pose::Identity();      ///< at the scan's stamp
-  Vector6d velocity = Vector6d::Zero();     ///< in the lidar's frame, a second; what the scan was deskewed with
+  Pose T_map_lidar = Pose::Identity();   ///< at the scan's stamp
+  Vector6d velocity = Vector6d::Zero();  ///< in the lidar's frame, a second; what the scan was deskewed with
   Health health;
-  PointCloud sample;                        ///< its points, thinned, as seen (not deskewed), with times where known
+  PointCloud sample;  ///< its points, thinned, as seen (not deskewed), with times where known
 };
 
 /// The front end. Feed scans in order: `track` finds the pose, `commit` accepts it and grows the map. A caller that
@@ -86,7 +86,7 @@ class Odometry {
   Pose origin_ = Pose::Identity();
   std::optional<TrackedScan> last_;
   std::size_t committed_ = 0;
-  std::deque<double> deviations_;   ///< metres by which the motion model missed, latest last
+  std::deque<double> deviations_;                       ///< metres by which the motion model missed, latest last
   Eigen::Vector3d swept_at_ = Eigen::Vector3d::Zero();  ///< where the map was last pruned
 };
 

@@ -8,25 +8,25 @@
 namespace loopmark {
 
 struct SlamOptions {
-  double keyframe_m = 2.5;            ///< a keyframe after this distance,
-  double keyframe_deg = 25.0;         ///< or this turn,
-  double novelty = 0.5;               ///< or when this share of the scan is not in the local map (and 0.5 m are driven)
-  double keyframe_voxel_m = 0.2;      ///< one point a voxel is kept of a keyframe
-  double cloud_voxel_m = 0.2;         ///< and of the cloud of the whole map
-  bool close_loops = true;            ///< look for places seen before
-  std::size_t loop_candidates = 2;    ///< places tried for each keyframe
-  double loop_every_m = 5.0;          ///< places are looked up once in this distance
-  double loop_gap_m = 40.0;           ///< a place passed within this distance of driving is no loop
-  double max_loop_m = 25.0;           ///< places seen from farther apart add error, not knowledge, within a piece
-  double min_loop_p = 0.9;            ///< a loop below this P(correct) is kept as evidence but not used
-  std::size_t recovery_keyframes = 3; ///< latest keyframes that a lost scan is registered to
-  double drift_m_per_m = 0.003;       ///< odometry's drift as believed by the pose graph: metres a metre
-  double drift_deg_per_m = 0.01;      ///< and degrees a metre
-  double floor_m = 0.01;              ///< no odometry between keyframes is believed better than this
-  double floor_deg = 0.03;            ///< and this
-  double loop_floor_m = 0.2;          ///< no loop is believed better than this
-  double loop_floor_deg = 0.3;        ///< and this
-  std::size_t max_bad_scans = 10;     ///< more damaged scans end the run
+  double keyframe_m = 2.5;          ///< a keyframe after this distance,
+  double keyframe_deg = 25.0;       ///< or this turn,
+  double novelty = 0.5;             ///< or when this share of the scan is not in the local map (and 0.5 m are driven)
+  double keyframe_voxel_m = 0.2;    ///< one point a voxel is kept of a keyframe
+  double cloud_voxel_m = 0.2;       ///< and of the cloud of the whole map
+  bool close_loops = true;          ///< look for places seen before
+  std::size_t loop_candidates = 2;  ///< places tried for each keyframe
+  double loop_every_m = 5.0;        ///< places are looked up once in this distance
+  double loop_gap_m = 40.0;         ///< a place passed within this distance of driving is no loop
+  double max_loop_m = 25.0;         ///< places seen from farther apart add error, not knowledge, within a piece
+  double min_loop_p = 0.9;          ///< a loop below this P(correct) is kept as evidence but not used
+  std::size_t recovery_keyframes = 3;  ///< latest keyframes that a lost scan is registered to
+  double drift_m_per_m = 0.003;        ///< odometry's drift as believed by the pose graph: metres a metre
+  double drift_deg_per_m = 0.01;       ///< and degrees a metre
+  double floor_m = 0.01;               ///< no odometry between keyframes is believed better than this
+  double floor_deg = 0.03;             ///< and this
+  double loop_floor_m = 0.2;           ///< no loop is believed better than this
+  double loop_floor_deg = 0.3;         ///< and this
+  std::size_t max_bad_scans = 10;      ///< more damaged scans end the run
   Compensation compensation = Compensation::kUnknown;  ///< unknown: measured
 };
 
@@ -41,7 +41,8 @@ void describe(Visitor& v, SlamOptions& o) {
   v.field("loop_candidates", o.loop_candidates, "places tried for each keyframe");
   v.field("loop_every_m", o.loop_every_m, "places are looked up once in this distance, metres");
   v.field("loop_gap_m", o.loop_gap_m, "a place passed within this distance of driving is no loop, metres");
-  v.field("max_loop_m", o.max_loop_m, "places seen from farther apart add error, not knowledge, within a piece, metres");
+  v.field("max_loop_m", o.max_loop_m,
+          "places seen from farther apart add error, not knowledge, within a piece, metres");
   v.field("min_loop_p", o.min_loop_p, "a loop below this P(correct) is kept as evidence but not used");
   v.field("recovery_keyframes", o.recovery_keyframes, "latest keyframes that a lost scan is registered to");
   v.field("drift_m_per_m", o.drift_m_per_m, "odometry's drift as believed by the pose graph, metres a metre");

@@ -23,16 +23,16 @@ enum class ScanState {
 const char* name(ScanState state);
 
 struct ScanRecord {
-  std::size_t scan = 0;                    ///< place in the log
+  std::size_t scan = 0;  ///< place in the log
   double stamp_s = 0.0;
   ScanState state = ScanState::kTracked;
-  std::size_t piece = 0;                   ///< scans of one piece are joined by odometry
-  std::optional<std::size_t> keyframe;     ///< number of the keyframe made of this scan
+  std::size_t piece = 0;                ///< scans of one piece are joined by odometry
+  std::optional<std::size_t> keyframe;  ///< number of the keyframe made of this scan
   Pose T_piece_lidar = Pose::Identity();
-  Vector6d velocity = Vector6d::Zero();    ///< a second, lidar frame
+  Vector6d velocity = Vector6d::Zero();  ///< a second, lidar frame
   double inlier_share = 0.0;
   double residual_m = 0.0;
-  std::size_t degenerate = 0;              ///< number of degenerate directions
+  std::size_t degenerate = 0;  ///< number of degenerate directions
   Tracking tracking = Tracking::kGood;
   Matrix6d covariance = Matrix6d::Zero();  ///< of xi in T_piece_lidar * exp(xi), against the local map
   std::string problem;                     ///< of a damaged or lost scan
@@ -44,11 +44,11 @@ ScanRecord scan_from_line(const std::string& line);
 
 /// One loop candidate with its verdict, whether accepted or not.
 struct LoopRecord {
-  std::size_t source = 0;   ///< keyframe numbers: the later,
-  std::size_t target = 0;   ///< and the earlier one
-  std::string origin;       ///< what proposed it: "place", "neighbour", "person"
-  bool answered = false;    ///< the registration gave an answer
-  std::string reason;       ///< why it did not
+  std::size_t source = 0;  ///< keyframe numbers: the later,
+  std::size_t target = 0;  ///< and the earlier one
+  std::string origin;      ///< what proposed it: "place", "neighbour", "person"
+  bool answered = false;   ///< the registration gave an answer
+  std::string reason;      ///< why it did not
   double p_correct = 0.0;
   Pose T_target_source = Pose::Identity();
   Matrix6d covariance = Matrix6d::Identity();  ///< of xi in exp(xi) * T_target_source

@@ -23,12 +23,13 @@ struct AbsoluteError {
 /// Both as long, at least one pose; throws std::invalid_argument otherwise.
 AbsoluteError absolute_error(const std::vector<Pose>& estimate, const std::vector<Pose>& truth);
 
-/// KITTI's odometry error (Geiger et al., CVPR 2012): over all pieces of 100, 200, ..., 800 m of true path that start at
-/// every tenth pose, the mean translation error in percent of the length and the mean rotation error in degrees a metre.
+/// KITTI's odometry error (Geiger et al., CVPR 2012): over all pieces of 100, 200, ..., 800 m of true path that start
+/// at every tenth pose, the mean translation error in percent of the length and the mean rotation error in degrees a
+/// metre.
 struct KittiError {
   double translation_percent = 0.0;
   double rotation_deg_per_m = 0.0;
-  std::size_t pieces = 0;   ///< 0: the path is shorter than 100 m
+  std::size_t pieces = 0;  ///< 0: the path is shorter than 100 m
 };
 
 KittiError kitti_error(const std::vector<Pose>& estimate, const std::vector<Pose>& truth);
