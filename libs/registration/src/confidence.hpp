@@ -10,7 +10,7 @@
 namespace loopmark {
 
 /// Log-odds of one hypothesis against "none of these", from its features: a conditional logit model, fitted by
-/// scripts/fit_confidence.py on pairs that no test uses.
+/// scripts/fit_confidence.py; docs/registration.md says on which pairs.
 double log_odds(const Features& features);
 
 /// P_i = exp(l_i) / (1 + sum_j exp(l_j)).

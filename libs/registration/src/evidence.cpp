@@ -21,16 +21,30 @@ constexpr float kTall = 2.2F;         // metres above the ground
 constexpr double kLowOverlap = 0.25;
 constexpr double kDoubt = 10.0;  // patches: how many it takes to believe a share
 
+/// A viewpoint, turned round once for all points that it is asked about.
+struct Witness {
+  Eigen::Isometry3f T_sensor_level;
+  const RangeImage* image;
+};
+
+std::vector<Witness> witnesses_of(const PreparedScan::Data& scan) {
+  std::vector<Witness> witnesses;
+  for (const View& view : scan.views) {
+    witnesses.push_back({view.T_level_sensor.inverse().cast<float>(), &view.image});
+  }
+  return witnesses;
+}
+
 /// What all viewpoints of a scan say of a point in its levelled frame: agreement outweighs conflict.
-RangeImage::Sight look_from_all(const std::vector<View>& views, const Eigen::Vector3f& point) {
+RangeImage::Sight look_from_all(const std::vector<Witness>& witnesses, const Eigen::Vector3f& point) {
   auto verdict = RangeImage::Sight::kUnknown;
-  for (const View& view : views) {
-    const Eigen::Vector3f seen = view.T_level_sensor.inverse().cast<float>() * point;
+  for (const Witness& witness : witnesses) {
+    const Eigen::Vector3f seen = witness.T_sensor_level * point;
     const float range = seen.norm();
     if (range > kTestified) {
       continue;
     }
-    const auto sight = view.image.look_at(seen, 0.8F + 0.02F * range);
+    const auto sight = witness.image->look_at(seen, 0.8F + 0.02F * range);
     if (sight == RangeImage::Sight::kAgrees) {
       return sight;
     }
@@ -75,6 +89,7 @@ double constraint(const Alignment& alignment) {
 Testimony ask(const PreparedScan::Data& source, const PreparedScan::Data& target, const Pose& T_target_source) {
   const Eigen::Isometry3f T = T_target_source.cast<float>();
   const Eigen::Matrix3f R = T.linear();
+  const std::vector<Witness> witnesses = witnesses_of(target);
   Testimony t;
   VoxelTable cells(256);
   std::vector<int> met_in_cell;
@@ -90,7 +105,7 @@ Testimony ask(const PreparedScan::Data& source, const PreparedScan::Data& target
       ++met_in_cell[cell];
       continue;
     }
-    const auto sight = look_from_all(target.views, p);
+    const auto sight = look_from_all(witnesses, p);
     voices.conflict += sight == RangeImage::Sight::kConflict ? 1.0 : 0.0;
     voices.unmet += sight == RangeImage::Sight::kAgrees ? 1.0 : 0.0;
   }
