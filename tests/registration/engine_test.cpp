@@ -119,6 +119,14 @@ TEST_F(Engine, AbstainsBetweenDifferentStreets) {
   EXPECT_FALSE(result.reason.empty());
 }
 
+TEST_F(Engine, AbstainsWhereScansTouchOnlyAtTheirFringe) {
+  const PreparedScan here = prepared(standing_at(0, 0, 0), 1);
+  for (const std::uint64_t town : {90, 91, 93, 98, 100, 101, 103}) {
+    const PreparedScan there = prepare_scan(Street(town).scan(standing_at(0, 0, 40), 3), options_);
+    EXPECT_FALSE(register_scans(here, there, options_).answered) << town;
+  }
+}
+
 TEST_F(Engine, SameBytesAtAnyNumberOfThreads) {
   const PreparedScan a = prepared(standing_at(0, 0, 0), 1);
   const PreparedScan b = prepared(standing_at(9, -4, 130), 2);

@@ -37,31 +37,89 @@ std::vector<float> smoothing(const CorrelationOptions& options) {
   return gain;
 }
 
-std::size_t cells_in_band(const std::vector<StructureCell>& cells, std::size_t band) {
-  return static_cast<std::size_t>(
-      std::count_if(cells.begin(), cells.end(), [&](const StructureCell& c) { return (c.bands >> band & 1U) != 0; }));
+/// A point of a layer: x, y in metres, and what is drawn there.
+using Layer = std::vector<Eigen::Vector3f>;
+constexpr std::size_t kLayers = kBands + 1;
+
+/// One layer a height band, drawn as ones, and the relief of the ground.
+std::array<Layer, kLayers> layers_of(const BirdseyeView& view) {
+  std::array<Layer, kLayers> layers;
+  for (const StructureCell& cell : view.structure) {
+    for (std::size_t band = 0; band < kBands; ++band) {
+      if ((cell.bands >> band & 1U) != 0) {
+        layers[band].emplace_back(cell.x, cell.y, 1.0F);
+      }
+    }
+  }
+  for (const ReliefCell& cell : view.relief) {
+    layers[kBands].emplace_back(cell.x, cell.y, cell.relief / kMostRelief);
+  }
+  return layers;
 }
 
-/// Whitening gives every band the same energy; a band of a few cells must not speak as loud as a full one.
-float band_weight(const std::vector<StructureCell>& source, const std::vector<StructureCell>& target,
-                  std::size_t band) {
-  const auto cells = static_cast<float>(std::min(cells_in_band(source, band), cells_in_band(target, band)));
+/// Whitening gives every layer the same energy; a band of a few cells must not speak as loud as a full one.
+float layer_weight(const Layer& source, const Layer& target) {
+  const auto cells = static_cast<float>(std::min(source.size(), target.size()));
   return cells / (cells + kFullBand);
+}
+
+/// 1 / |.|: only the phase stays.
+inline float whitening(float re, float im) { return 1.0F / std::sqrt(re * re + im * im + kSmallPower); }
+
+/// Real and imaginary parts of a row of a spectrum.
+template <class Float>
+struct Row {
+  Float* __restrict re;
+  Float* __restrict im;
+};
+
+/// Z = A + iB holds the spectra of two real images: A = (Z[k] + conj Z[-k]) / 2, B = (Z[k] - conj Z[-k]) / 2i. Adds the
+/// spectra of the packed surfaces P + iQ: for the images as drawn, P = T conj(A) / |A|, Q = T conj(B) / |B|; for both
+/// turned by pi, P = T A / |A|, Q = T B / |B|. T is the target's, whitened already.
+__attribute__((target_clones("avx2", "default"))) void multiply_row(Row<const float> z, Row<const float> mirrored,
+                                                                    Row<const float> target, Row<float> drawn,
+                                                                    Row<float> turned, std::size_t side) {
+  for (std::size_t x = 0; x < side; ++x) {
+    const float a_re = 0.5F * (z.re[x] + mirrored.re[x]);
+    const float a_im = 0.5F * (z.im[x] - mirrored.im[x]);
+    const float b_re = 0.5F * (z.im[x] + mirrored.im[x]);
+    const float b_im = 0.5F * (mirrored.re[x] - z.re[x]);
+    const float wa = 1.0F / std::sqrt(a_re * a_re + a_im * a_im + kSmallPower);
+    const float wb = 1.0F / std::sqrt(b_re * b_re + b_im * b_im + kSmallPower);
+    const float a_rr = wa * target.re[x] * a_re;
+    const float a_ii = wa * target.im[x] * a_im;
+    const float a_ir = wa * target.im[x] * a_re;
+    const float a_ri = wa * target.re[x] * a_im;
+    const float b_rr = wb * target.re[x] * b_re;
+    const float b_ii = wb * target.im[x] * b_im;
+    const float b_ir = wb * target.im[x] * b_re;
+    const float b_ri = wb * target.re[x] * b_im;
+    drawn.re[x] += (a_rr + a_ii) - (b_ir - b_ri);
+    drawn.im[x] += (a_ir - a_ri) + (b_rr + b_ii);
+    turned.re[x] += (a_rr - a_ii) - (b_ir + b_ri);
+    turned.im[x] += (a_ir + a_ri) + (b_rr - b_ii);
+  }
 }
 
 /// The surfaces of one correlation run: what is constant over the yaws.
 class Correlator {
  public:
-  Correlator(const std::vector<StructureCell>& source, const std::vector<StructureCell>& target,
-             const CorrelationOptions& options)
-      : options_(options), fft_(options.side), gain_(smoothing(options)), targets_(kBands, ComplexGrid(options.side)) {
-    for (std::size_t band = 0; band < kBands; ++band) {
-      ComplexGrid& spectrum = targets_[band];
-      draw(target, 0.0, band, spectrum.re);
+  Correlator(const BirdseyeView& source, const BirdseyeView& target, const CorrelationOptions& options)
+      : options_(options), fft_(options.side), source_(layers_of(source)) {
+    const std::vector<float> gain = smoothing(options);
+    const auto layers = layers_of(target);
+    for (std::size_t i = 0; i < kLayers; ++i) {
+      const float weight =
+          layer_weight(source_[i], layers[i]) * (i == kBands ? static_cast<float>(options.relief_weight) : 1.0F);
+      if (weight <= 0.0F) {
+        continue;
+      }
+      used_.push_back(i);
+      ComplexGrid& spectrum = targets_.emplace_back(options.side);
+      draw(layers[i], 0.0, spectrum.re);
       fft_.forward(spectrum);
-      const float weight = band_weight(source, target, band);
-      for (std::size_t k = 0; k < gain_.size(); ++k) {
-        const float scale = weight * gain_[k] * whitening(spectrum.re[k], spectrum.im[k]);
+      for (std::size_t k = 0; k < gain.size(); ++k) {
+        const float scale = weight * gain[k] * whitening(spectrum.re[k], spectrum.im[k]);
         spectrum.re[k] *= scale;
         spectrum.im[k] *= scale;
       }
@@ -70,16 +128,16 @@ class Correlator {
 
   /// The correlation surfaces of four yaws at once: a and b in the real and the imaginary part of the first grid, a +
   /// pi and b + pi in those of the second. Turning an image by pi conjugates its spectrum, which is drawn only once.
-  std::array<ComplexGrid, 2> surfaces(const std::vector<StructureCell>& source, double yaw_a, double yaw_b) const {
+  std::array<ComplexGrid, 2> surfaces(double yaw_a, double yaw_b) const {
     std::array<ComplexGrid, 2> sums = {ComplexGrid(options_.side), ComplexGrid(options_.side)};
     ComplexGrid grid(options_.side);
-    for (std::size_t band = 0; band < kBands; ++band) {
+    for (std::size_t i = 0; i < used_.size(); ++i) {
       std::fill(grid.re.begin(), grid.re.end(), 0.0F);
       std::fill(grid.im.begin(), grid.im.end(), 0.0F);
-      draw(source, yaw_a, band, grid.re);
-      draw(source, yaw_b, band, grid.im);
+      draw(source_[used_[i]], yaw_a, grid.re);
+      draw(source_[used_[i]], yaw_b, grid.im);
       fft_.forward(grid);
-      multiply(grid, targets_[band], sums);
+      multiply(grid, targets_[i], sums);
     }
     fft_.inverse(sums[0]);
     fft_.inverse(sums[1]);
@@ -87,90 +145,53 @@ class Correlator {
   }
 
  private:
-  /// 1 / |.|: only the phase stays.
-  static float whitening(float re, float im) { return 1.0F / std::sqrt(re * re + im * im + kSmallPower); }
-
-  /// Bilinear drawing of the turned cells; whatever leaves the grid is dropped.
-  void draw(const std::vector<StructureCell>& cells, double yaw, std::size_t band, std::vector<float>& image) const {
+  /// Bilinear drawing of the turned points. What leaves the grid comes in again on the other side: the correlation is
+  /// periodic anyway, and the peaks are unfolded.
+  void draw(const Layer& layer, double yaw, std::vector<float>& image) const {
     const auto c = static_cast<float>(std::cos(yaw) / options_.cell_m);
     const auto s = static_cast<float>(std::sin(yaw) / options_.cell_m);
-    const auto side = static_cast<int>(options_.side);
-    const float half = static_cast<float>(side) / 2.0F;
-    for (const StructureCell& cell : cells) {
-      if ((cell.bands >> band & 1U) == 0) {
-        continue;
-      }
-      const float gx = c * cell.x - s * cell.y + half;
-      const float gy = s * cell.x + c * cell.y + half;
-      const int ix = static_cast<int>(std::floor(gx));
-      const int iy = static_cast<int>(std::floor(gy));
-      if (ix < 0 || iy < 0 || ix + 1 >= side || iy + 1 >= side) {
-        continue;
-      }
-      const float ax = gx - static_cast<float>(ix);
-      const float ay = gy - static_cast<float>(iy);
-      float* row = image.data() + static_cast<std::size_t>(iy * side + ix);
-      row[0] += (1.0F - ax) * (1.0F - ay);
-      row[1] += ax * (1.0F - ay);
-      row[side] += (1.0F - ax) * ay;
-      row[side + 1] += ax * ay;
+    const int mask = static_cast<int>(options_.side) - 1;
+    for (const Eigen::Vector3f& point : layer) {
+      const float gx = c * point.x() - s * point.y();
+      const float gy = s * point.x() + c * point.y();
+      const float fx = std::floor(gx);
+      const float fy = std::floor(gy);
+      const float ax = gx - fx;
+      const float ay = point.z() * (gy - fy);
+      const float by = point.z() - ay;
+      const int x0 = static_cast<int>(fx) & mask;
+      const int x1 = (x0 + 1) & mask;
+      const auto y0 = static_cast<std::size_t>(static_cast<int>(fy) & mask) * options_.side;
+      const auto y1 = static_cast<std::size_t>((static_cast<int>(fy) + 1) & mask) * options_.side;
+      image[y0 + static_cast<std::size_t>(x0)] += (1.0F - ax) * by;
+      image[y0 + static_cast<std::size_t>(x1)] += ax * by;
+      image[y1 + static_cast<std::size_t>(x0)] += (1.0F - ax) * ay;
+      image[y1 + static_cast<std::size_t>(x1)] += ax * ay;
     }
   }
 
   /// Parts the two real images' spectra, whitens them and multiplies their conjugates with the target's.
   void multiply(const ComplexGrid& grid, const ComplexGrid& target, std::array<ComplexGrid, 2>& sums) const {
     const std::size_t side = options_.side;
+    std::vector<float> mirrored(2 * side);  // row -y of the grid, read backwards
     for (std::size_t y = 0; y < side; ++y) {
-      const std::size_t my = (side - y) % side;
+      const std::size_t row = y * side;
+      const std::size_t opposite = ((side - y) % side) * side;
       for (std::size_t x = 0; x < side; ++x) {
-        const std::size_t k = y * side + x;
-        const std::size_t m = my * side + (side - x) % side;
-        if (m < k) {
-          continue;
-        }
-        multiply_pair(grid, target, k, m, sums);
+        mirrored[x] = grid.re[opposite + (side - x) % side];
+        mirrored[side + x] = grid.im[opposite + (side - x) % side];
       }
-    }
-  }
-
-  void multiply_pair(const ComplexGrid& z, const ComplexGrid& target, std::size_t k, std::size_t m,
-                     std::array<ComplexGrid, 2>& sums) const {
-    // A = (Z[k] + conj Z[m]) / 2, B = (Z[k] - conj Z[m]) / 2i; A[m] = conj A[k], B[m] = conj B[k].
-    const float a_re = 0.5F * (z.re[k] + z.re[m]);
-    const float a_im = 0.5F * (z.im[k] - z.im[m]);
-    const float b_re = 0.5F * (z.im[k] + z.im[m]);
-    const float b_im = 0.5F * (z.re[m] - z.re[k]);
-    const float wa = whitening(a_re, a_im);
-    const float wb = whitening(b_re, b_im);
-    const float t_re = target.re[k];
-    const float t_im = target.im[k];
-    // T conj(A) and T A share their products; likewise for B.
-    const float a_rr = wa * t_re * a_re;
-    const float a_ii = wa * t_im * a_im;
-    const float a_ir = wa * t_im * a_re;
-    const float a_ri = wa * t_re * a_im;
-    const float b_rr = wb * t_re * b_re;
-    const float b_ii = wb * t_im * b_im;
-    const float b_ir = wb * t_im * b_re;
-    const float b_ri = wb * t_re * b_im;
-    add(sums[0], k, m, a_rr + a_ii, a_ir - a_ri, b_rr + b_ii, b_ir - b_ri);
-    add(sums[1], k, m, a_rr - a_ii, a_ir + a_ri, b_rr - b_ii, b_ir + b_ri);
-  }
-
-  /// Adds the spectrum P + iQ of the packed surfaces at k, and at -k, where P and Q are conjugated.
-  static void add(ComplexGrid& sum, std::size_t k, std::size_t m, float p_re, float p_im, float q_re, float q_im) {
-    sum.re[k] += p_re - q_im;
-    sum.im[k] += p_im + q_re;
-    if (m != k) {
-      sum.re[m] += p_re + q_im;
-      sum.im[m] += q_re - p_im;
+      multiply_row({&grid.re[row], &grid.im[row]}, {mirrored.data(), mirrored.data() + side},
+                   {&target.re[row], &target.im[row]}, {&sums[0].re[row], &sums[0].im[row]},
+                   {&sums[1].re[row], &sums[1].im[row]}, side);
     }
   }
 
   CorrelationOptions options_;
   Fft2d fft_;
-  std::vector<float> gain_;
-  std::vector<ComplexGrid> targets_;  ///< whitened spectra, one a band
+  std::array<Layer, kLayers> source_;
+  std::vector<std::size_t> used_;     ///< layers that both scans have
+  std::vector<ComplexGrid> targets_;  ///< their whitened and weighted spectra
 };
 
 struct Peak {
@@ -251,11 +272,30 @@ std::vector<PlanarHypothesis> distinct(std::vector<PlanarHypothesis> all, const 
   return kept;
 }
 
+/// A shift along one axis and its like, one side of the grid away, where that is not too long.
+std::vector<double> unfolded(double shift, const CorrelationOptions& options) {
+  const double other = shift - std::copysign(static_cast<double>(options.side) * options.cell_m, shift);
+  return std::abs(other) <= options.longest_shift_m ? std::vector<double>{shift, other} : std::vector<double>{shift};
+}
+
+/// Every shift that the peaks may stand for.
+std::vector<PlanarHypothesis> unfolded(const std::vector<PlanarHypothesis>& peaks, const CorrelationOptions& options) {
+  std::vector<PlanarHypothesis> all;
+  for (const PlanarHypothesis& peak : peaks) {
+    for (const double y : unfolded(peak.y, options)) {
+      for (const double x : unfolded(peak.x, options)) {
+        all.push_back({peak.yaw, x, y, peak.score});
+      }
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
-std::vector<PlanarHypothesis> correlate(const std::vector<StructureCell>& source,
-                                        const std::vector<StructureCell>& target, const CorrelationOptions& options) {
-  if (source.empty() || target.empty()) {
+std::vector<PlanarHypothesis> correlate(const BirdseyeView& source, const BirdseyeView& target,
+                                        const CorrelationOptions& options) {
+  if (source.structure.empty() || target.structure.empty()) {
     return {};
   }
   const Correlator correlator(source, target, options);
@@ -265,7 +305,7 @@ std::vector<PlanarHypothesis> correlate(const std::vector<StructureCell>& source
   parallel_for(groups, [&](std::size_t i) {
     const double yaw_a = static_cast<double>(2 * i) * step;
     const double yaw_b = yaw_a + step;
-    const auto surfaces = correlator.surfaces(source, yaw_a, yaw_b);
+    const auto surfaces = correlator.surfaces(yaw_a, yaw_b);
     for (std::size_t half = 0; half < 2; ++half) {
       const double turn = half == 0 ? 0.0 : std::numbers::pi;
       append_peaks(surfaces[half].re, yaw_a + turn, options, found[i]);
@@ -276,7 +316,7 @@ std::vector<PlanarHypothesis> correlate(const std::vector<StructureCell>& source
   for (const auto& part : found) {
     all.insert(all.end(), part.begin(), part.end());
   }
-  return distinct(std::move(all), options);
+  return unfolded(distinct(std::move(all), options), options);
 }
 
 }  // namespace loopmark::birdseye

@@ -51,7 +51,7 @@ std::vector<std::size_t> cells_outwards() {
 
 }  // namespace
 
-GroundMap::GroundMap(const std::vector<Eigen::Vector3f>& points) : ground_(kSide * kSide, 0.0F) {
+GroundMap::GroundMap(const std::vector<Eigen::Vector3f>& points) : GroundMap() {
   static const std::vector<std::size_t> outwards = cells_outwards();
   const std::vector<float> low = second_lowest(points);
   std::vector<float> reach(kSide * kSide, 0.0F);  // metres since ground was last seen
@@ -62,6 +62,7 @@ GroundMap::GroundMap(const std::vector<Eigen::Vector3f>& points) : ground_(kSide
     const float y = centre_of(iy);
     const float range = std::hypot(x, y);
     if (range < 2.0F * kCell) {
+      seen_[cell] = 1;
       continue;  // the levelled plane itself
     }
     const float shrink = (range - kCell) / range;
@@ -69,9 +70,14 @@ GroundMap::GroundMap(const std::vector<Eigen::Vector3f>& points) : ground_(kSide
     const float expected = ground_[parent];
     const float tolerance = kRoughness + kSlope * (kCell + reach[parent]);
     const bool seen = std::abs(low[cell] - expected) < tolerance;
+    seen_[cell] = seen ? 1 : 0;
     ground_[cell] = seen ? low[cell] : expected;
     reach[cell] = seen ? 0.0F : std::min(reach[parent] + kCell, 10.0F);
   }
+}
+
+bool GroundMap::seen(float x, float y) const {
+  return seen_[static_cast<std::size_t>(cell_of(y) * kSide + cell_of(x))] != 0;
 }
 
 float GroundMap::ground(float x, float y) const {

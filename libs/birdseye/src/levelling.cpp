@@ -18,6 +18,8 @@ constexpr float kThickness = 0.15F;  // metres to either side of the plane
 constexpr float kBelow = 0.5F;       // metres below the plane that speak against it
 constexpr float kBelowWeight = 2.0F;
 constexpr float kMinUpright = 0.82F;  // cosine of 35 degrees
+constexpr float kUsualTilt = 0.17F;   // radians: a car's sensor is tilted by less; a roof or a bank is not
+constexpr float kTiltDoubt = 3.0F;    // a radian more costs this share of the points
 constexpr int kTrials = 400;
 constexpr std::size_t kMaxPoints = 3000;
 constexpr double kUsualHeight = 1.7;  // metres, where no ground is seen
@@ -65,7 +67,9 @@ float score(const Plane& plane, const std::vector<Eigen::Vector3f>& points) {
     on += std::abs(h) < kThickness ? 1 : 0;
     below += h < -kBelow ? 1 : 0;
   }
-  return static_cast<float>(on) - kBelowWeight * static_cast<float>(below);
+  const float excess = std::max(0.0F, std::acos(std::min(1.0F, plane.normal.z())) - kUsualTilt);
+  const float trust = std::max(0.0F, 1.0F - kTiltDoubt * excess);
+  return trust * static_cast<float>(on) - kBelowWeight * static_cast<float>(below);
 }
 
 std::optional<Plane> least_squares(const Plane& start, const std::vector<Eigen::Vector3f>& points) {

@@ -10,6 +10,7 @@ namespace loopmark {
 namespace {
 
 constexpr double kAcross = 0.05;     // weight of the residual inside a plane
+constexpr double kUpright = 0.1;     // of that, what counts along the vertical
 constexpr double kConverged = 1e-4;  // metres and radians
 
 struct NormalEquations {
@@ -20,14 +21,17 @@ struct NormalEquations {
   std::size_t used = 0;
 };
 
-/// Adds one patch: r = q - p, weight matrix W = a I + (1 - a) n n^T, Jacobian [-I, hat(p)].
+/// Adds one patch: r = q - p, weight matrix W = a diag(1, 1, u) + (1 - a) planarity n n^T, Jacobian [-I, hat(p)].
 void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Patch& target, double scale_m) {
   const Eigen::Vector3d point = p.cast<double>();
   const Eigen::Vector3d n = target.normal.cast<double>();
   const Eigen::Vector3d r = target.mean.cast<double>() - point;
   const double blob = 1.0 - target.planarity;
-  const double across = kAcross + (1.0 - kAcross) * blob * blob * 0.5;
-  const Eigen::Matrix3d w = across * Eigen::Matrix3d::Identity() + (1.0 - across) * n * n.transpose();
+  // Ground would only brake: the nearest patch of a plane is near wherever one stands.
+  const double across = target.height < kGroundHeight ? 0.0 : kAcross + (1.0 - kAcross) * blob * blob * 0.5;
+  // A lone ring on a wall is a line: its normal is anyone's guess, and its height is the sensor's, not the wall's.
+  const Eigen::Matrix3d w = across * Eigen::Vector3d(1.0, 1.0, kUpright).asDiagonal().toDenseMatrix() +
+                            (1.0 - across) * static_cast<double>(target.planarity) * n * n.transpose();
   const Eigen::Vector3d wr = w * r;
   const double squared = r.dot(wr);
   const double ratio = 1.0 / (1.0 + squared / (scale_m * scale_m));
@@ -86,6 +90,19 @@ void take_evenly(const std::vector<const Patch*>& from, std::size_t count, std::
   }
 }
 
+template <class Belongs>
+std::vector<Patch> sampled_where(const std::vector<Patch>& patches, std::size_t count, Belongs belongs) {
+  std::vector<const Patch*> fitting;
+  for (const Patch& patch : patches) {
+    if (belongs(patch)) {
+      fitting.push_back(&patch);
+    }
+  }
+  std::vector<Patch> chosen;
+  take_evenly(fitting, count, chosen);
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<Patch> sampled(const std::vector<Patch>& patches, std::size_t count) {
@@ -101,15 +118,11 @@ std::vector<Patch> sampled(const std::vector<Patch>& patches, std::size_t count)
 }
 
 std::vector<Patch> sampled_structure(const std::vector<Patch>& patches, std::size_t count) {
-  std::vector<const Patch*> structure;
-  for (const Patch& patch : patches) {
-    if (patch.height > kStructureHeight) {
-      structure.push_back(&patch);
-    }
-  }
-  std::vector<Patch> chosen;
-  take_evenly(structure, count, chosen);
-  return chosen;
+  return sampled_where(patches, count, [](const Patch& patch) { return patch.height > kStructureHeight; });
+}
+
+std::vector<Patch> sampled_ground(const std::vector<Patch>& patches, std::size_t count) {
+  return sampled_where(patches, count, [](const Patch& patch) { return patch.height < kGroundHeight; });
 }
 
 }  // namespace loopmark

@@ -25,4 +25,7 @@ std::vector<Patch> sampled(const std::vector<Patch>& patches, std::size_t count)
 /// Up to `count` patches of structure at even steps through the scan.
 std::vector<Patch> sampled_structure(const std::vector<Patch>& patches, std::size_t count);
 
+/// Up to `count` patches of the ground (height below 0.3 m) at even steps through the scan.
+std::vector<Patch> sampled_ground(const std::vector<Patch>& patches, std::size_t count);
+
 }  // namespace loopmark

@@ -13,6 +13,7 @@
 #include "loopmark/birdseye/correlation.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
+#include "settling.hpp"
 
 namespace loopmark {
 namespace {
@@ -23,11 +24,14 @@ constexpr double kDistinctDegrees = 3.0;
 constexpr double kResidualSigma = 0.05;  // metres; of one patch, for the covariance
 constexpr double kDependence = 20.0;     // patches that say the same thing: neighbours are not independent
 
+/// Of a motion that did not come from the correlation: as one that leads by a usual height.
+constexpr PeakHeights kNoRival = {12.0, 12.0};
+
 /// A motion between the levelled frames and what it rests on.
 struct Candidate {
   Alignment alignment;
   std::string origin;
-  double peak = 0.0;
+  PeakHeights peak;
   Features features{};
   double log_odds = 0.0;
 };
@@ -36,12 +40,12 @@ struct Candidate {
 std::vector<Candidate> hypothesize(const PreparedScan::Data& source, const PreparedScan::Data& target,
                                    const EngineOptions& options) {
   std::vector<Candidate> candidates;
-  const auto planar = birdseye::correlate(source.cells, target.cells, options.correlation);
+  const auto planar = birdseye::correlate(source.above, target.above, options.correlation);
   for (const birdseye::PlanarHypothesis& h : planar) {
     Candidate candidate;
     candidate.alignment.T_target_source = pose_from_yaw(h.yaw, {h.x, h.y, 0.0});
     candidate.origin = "birdseye";
-    candidate.peak = h.score;
+    candidate.peak = {h.score, planar.front().score};
     candidates.push_back(candidate);
   }
   return candidates;
@@ -63,10 +67,11 @@ std::vector<Candidate> shortlist(std::vector<Candidate> candidates, const Prepar
                                  const PreparedScan::Data& target, const EngineOptions& options) {
   const std::vector<Patch> some = sampled(source.fine.patches(), kRoughPatches);
   const std::vector<Patch> structure = sampled_structure(source.fine.patches(), kRoughPatches);
+  const std::vector<Patch> ground = sampled_ground(source.fine.patches(), kRoughPatches);
   std::vector<double> agreement(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t i) {
     Pose& T = candidates[i].alignment.T_target_source;
-    T = align_patches(some, target.coarse, T, 1.2F, 1.0, 6).T_target_source;
+    T = align_patches(some, target.coarse, settled(T, ground, target.ground), 1.2F, 1.0, 6).T_target_source;
     agreement[i] = rough_agreement(structure, target, T);
   });
   std::vector<std::size_t> order(candidates.size());
@@ -82,24 +87,16 @@ std::vector<Candidate> shortlist(std::vector<Candidate> candidates, const Prepar
     }
   };
   for (const std::size_t i : order) {
-    keep(i, options.hypotheses / 2);
+    keep(i, options.candidates / 2);
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    keep(i, options.hypotheses);
+    keep(i, options.candidates);
   }
   return kept;
 }
 
-/// Coarse, then fine alignment on patches.
-void refine(Candidate& candidate, const std::vector<Patch>& coarse, const std::vector<Patch>& fine,
-            const PreparedScan::Data& target) {
-  Pose& T = candidate.alignment.T_target_source;
-  T = align_patches(coarse, target.coarse, T, 1.2F, 1.0, 10).T_target_source;
-  candidate.alignment = align_patches(fine, target.fine, T, 0.4F, 0.3, 8);
-}
-
-void judge(Candidate& candidate, const PreparedScan::Data& source, const PreparedScan::Data& target) {
-  candidate.features = features_of(source, target, candidate.alignment, candidate.peak);
+void judge(Candidate& candidate, const Inquiry& inquiry) {
+  candidate.features = inquiry.features(candidate.alignment, candidate.peak);
   candidate.log_odds = log_odds(candidate.features);
 }
 
@@ -119,6 +116,68 @@ std::vector<Candidate> distinct(std::vector<Candidate> candidates) {
   }
   return kept;
 }
+
+/// How closely a candidate is looked at.
+struct Effort {
+  std::size_t coarse_patches;
+  int coarse_rounds;
+  std::size_t fine_patches;
+  int fine_rounds;
+  std::size_t asked;  ///< patches of structure a direction
+};
+
+constexpr Effort kQuick = {400, 8, 600, 5, 400};
+constexpr Effort kThorough = {800, 4, 1500, 8, kAllAsked};
+
+/// Aligns candidates of one pair and asks the scans about them.
+class Examiner {
+ public:
+  Examiner(const PreparedScan::Data& source, const PreparedScan::Data& target, const Effort& effort)
+      : target_(target),
+        effort_(effort),
+        coarse_(sampled(source.fine.patches(), effort.coarse_patches)),
+        fine_(sampled(source.fine.patches(), effort.fine_patches)),
+        ground_(sampled_ground(source.fine.patches(), kRoughPatches)),
+        inquiry_(source, target, effort.asked) {}
+
+  /// Coarse, then fine alignment on patches, and what the scans say of the outcome. Returns the candidates that differ,
+  /// the most probable first.
+  std::vector<Candidate> examine(std::vector<Candidate> candidates) const {
+    parallel_for(candidates.size(),
+                 [&](std::size_t i) { candidates[i] = examined(candidates[i], effort_.coarse_rounds); });
+    return distinct(std::move(candidates));
+  }
+
+  /// Lays each candidate on the ground anew and aligns it finely from there; both are judged. Coarse patches mix ground
+  /// with what stands on it: they find the place well and the height badly.
+  std::vector<Candidate> settled_anew(std::vector<Candidate> candidates) const {
+    std::vector<Candidate> anew = candidates;
+    parallel_for(anew.size(), [&](std::size_t i) {
+      Pose& T = anew[i].alignment.T_target_source;
+      const double yaw = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
+      T = settled(pose_from_yaw(yaw, {T.translation().x(), T.translation().y(), 0.0}), ground_, target_.ground);
+      anew[i] = examined(anew[i], 0);
+    });
+    candidates.insert(candidates.end(), anew.begin(), anew.end());
+    return distinct(std::move(candidates));
+  }
+
+ private:
+  Candidate examined(Candidate c, int coarse_rounds) const {
+    const Pose& start = c.alignment.T_target_source;
+    const Pose T = align_patches(coarse_, target_.coarse, start, 1.2F, 1.0, coarse_rounds).T_target_source;
+    c.alignment = align_patches(fine_, target_.fine, T, 0.4F, 0.3, effort_.fine_rounds);
+    judge(c, inquiry_);
+    return c;
+  }
+
+  const PreparedScan::Data& target_;
+  Effort effort_;
+  std::vector<Patch> coarse_;
+  std::vector<Patch> fine_;
+  std::vector<Patch> ground_;
+  Inquiry inquiry_;
+};
 
 /// Covariance on the target sensor's side from the information between the levelled frames.
 Matrix6d covariance_of(const Alignment& alignment, const PreparedScan::Data& target) {
@@ -150,10 +209,10 @@ std::string reason_to_abstain(const std::vector<Candidate>& candidates, const st
     return "two places fit alike";
   }
   const Features& f = candidates.front().features;
-  if (f[2] > std::log(0.2) || f[4] > std::log(0.05)) {
+  if (feature(f, "low_conflict") > std::log(0.2) || feature(f, "tall_conflict") > std::log(0.05)) {
     return "beams of one scan pass through what the other saw";
   }
-  return f[0] < 0.25 ? "too little structure agrees" : "the evidence is weak";
+  return feature(f, "agreement") < 0.25 ? "too little structure agrees" : "the evidence is weak";
 }
 
 RegistrationResult conclude(const std::vector<Candidate>& candidates, const PreparedScan::Data& source,
@@ -179,24 +238,20 @@ RegistrationResult conclude(const std::vector<Candidate>& candidates, const Prep
   return result;
 }
 
-/// Refines and judges all candidates, then concludes over the distinct ones.
+/// Examines all candidates thoroughly, sharpens the best, and concludes over the distinct ones.
 RegistrationResult decide(std::vector<Candidate> candidates, const PreparedScan::Data& source,
                           const PreparedScan::Data& target, const EngineOptions& options,
                           std::vector<StageTime> timings) {
   Stopwatch watch;
-  const std::vector<Patch> coarse = sampled(source.fine.patches(), 800);
-  const std::vector<Patch> fine = sampled(source.fine.patches(), 1500);
-  parallel_for(candidates.size(), [&](std::size_t i) {
-    refine(candidates[i], coarse, fine, target);
-    judge(candidates[i], source, target);
-  });
+  const Examiner examiner(source, target, kThorough);
+  candidates = examiner.examine(std::move(candidates));
+  candidates = examiner.settled_anew(std::move(candidates));
   timings.push_back({"refine and verify", watch.seconds()});
   watch.reset();
-  candidates = distinct(std::move(candidates));
   if (!candidates.empty()) {
     Candidate& best = candidates.front();
     best.alignment = align_patches(source.fine.patches(), target.fine, best.alignment.T_target_source, 0.4F, 0.2, 6);
-    judge(best, source, target);
+    judge(best, Inquiry(source, target, kThorough.asked));
   }
   RegistrationResult result = conclude(candidates, source, target, options);
   timings.push_back({"polish", watch.seconds()});
@@ -213,6 +268,8 @@ RegistrationResult register_scans(const PreparedScan& source, const PreparedScan
   std::vector<StageTime> timings = {{"hypotheses", watch.seconds()}};
   watch.reset();
   candidates = shortlist(std::move(candidates), source.data(), target.data(), options);
+  candidates = Examiner(source.data(), target.data(), kQuick).examine(std::move(candidates));
+  candidates.resize(std::min(candidates.size(), options.hypotheses));
   timings.push_back({"shortlist", watch.seconds()});
   return decide(std::move(candidates), source.data(), target.data(), options, std::move(timings));
 }
@@ -221,6 +278,7 @@ RegistrationResult verify_motion(const PreparedScan& source, const PreparedScan&
                                  const EngineOptions& options) {
   Candidate guess;
   guess.origin = "guess";
+  guess.peak = kNoRival;
   guess.alignment.T_target_source =
       target.data().T_level_sensor * T_target_source * source.data().T_level_sensor.inverse();
   return decide({guess}, source.data(), target.data(), options, {});

@@ -12,7 +12,8 @@
 namespace loopmark {
 namespace {
 
-constexpr float kEgo = 2.0F;  // metres: nearer points are the car
+constexpr float kEgo =
+    3.0F;  // metres: nearer points are the car's own bonnet and roof, which would say that it stands still
 constexpr float kFarthest = 120.0F;
 constexpr double kLevelVoxel = 0.3;
 
@@ -73,11 +74,11 @@ void derive(PreparedScan::Data& data, std::vector<Patch> patches) {
   for (const Patch& patch : distinct) {
     means.push_back(patch.mean);
   }
-  const birdseye::GroundMap ground(means);
+  data.ground = birdseye::GroundMap(means);
   for (Patch& patch : distinct) {
-    patch.height = ground.height_above(patch.mean);
+    patch.height = data.ground.height_above(patch.mean);
   }
-  data.cells = birdseye::structure_cells(means, ground);
+  data.above = {birdseye::structure_cells(means, data.ground), birdseye::relief_cells(means, data.ground)};
   data.fine = PatchMap(std::move(distinct), kFinePatch);
   data.coarse = PatchMap(coarsened(data.fine, kCoarseFactor), kFinePatch * kCoarseFactor);
 }

@@ -3,6 +3,7 @@
 /// What a PreparedScan holds.
 #pragma once
 
+#include "loopmark/birdseye/ground_map.hpp"
 #include "loopmark/birdseye/structure.hpp"
 #include "loopmark/registration/engine.hpp"
 #include "loopmark/registration/patch_map.hpp"
@@ -17,11 +18,12 @@ struct View {
 };
 
 struct PreparedScan::Data {
-  Pose T_level_sensor = Pose::Identity();      ///< of the scan, or of the submap's frame
-  double ground_share = 0.0;                   ///< share of the near points on the ground plane; 0: none found
-  PatchMap fine;                               ///< 0.4 m
-  PatchMap coarse;                             ///< 1.2 m
-  std::vector<birdseye::StructureCell> cells;  ///< for the bird's-eye-view correlation
+  Pose T_level_sensor = Pose::Identity();  ///< of the scan, or of the submap's frame
+  double ground_share = 0.0;               ///< share of the near points on the ground plane; 0: none found
+  PatchMap fine;                           ///< 0.4 m
+  PatchMap coarse;                         ///< 1.2 m
+  birdseye::BirdseyeView above;            ///< for the bird's-eye-view correlation
+  birdseye::GroundMap ground;
   std::vector<View> views;
 };
 
@@ -30,8 +32,9 @@ constexpr int kCoarseFactor = 3;
 constexpr float kMeanStep = 0.005F;           ///< metres: means are kept in these steps, so that stored scans are exact
 constexpr float kNormalStep = 1.0F / 127.0F;  ///< of normals and planarity
 constexpr float kStructureHeight = 0.5F;      ///< patches higher above the ground than this are structure, metres
+constexpr float kGroundHeight = 0.3F;         ///< patches lower than this are ground, metres
 
-/// Fills what follows from the patches: the maps and the cells.
+/// Fills what follows from the patches: the maps, the ground, what is seen from above.
 void derive(PreparedScan::Data& data, std::vector<Patch> patches);
 
 }  // namespace loopmark

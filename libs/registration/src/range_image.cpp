@@ -38,6 +38,21 @@ RangeImage::RangeImage(const std::vector<Eigen::Vector3f>& points) : cells_(kCol
   }
 }
 
+bool RangeImage::passes_around(int bin, float range) const {
+  const int row = bin / kColumns;
+  const int column = bin % kColumns;
+  for (int y = std::max(0, row - 1); y <= std::min(kRows - 1, row + 1); ++y) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const int x = (column + dx + kColumns) % kColumns;
+      const Cell& cell = cells_[static_cast<std::size_t>(y * kColumns + x)];
+      if (cell.nearest != 0 && static_cast<float>(cell.nearest) * kUnit < range) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 RangeImage::Sight RangeImage::look_at(const Eigen::Vector3f& point, float margin_m) const {
   const int bin = bin_of(point);
   if (bin < 0 || cells_[static_cast<std::size_t>(bin)].nearest == 0) {
@@ -46,7 +61,7 @@ RangeImage::Sight RangeImage::look_at(const Eigen::Vector3f& point, float margin
   const Cell& cell = cells_[static_cast<std::size_t>(bin)];
   const float range = point.norm();
   if (range < static_cast<float>(cell.nearest) * kUnit - margin_m) {
-    return Sight::kConflict;
+    return passes_around(bin, range + margin_m) ? Sight::kClash : Sight::kConflict;
   }
   return range > static_cast<float>(cell.farthest) * kUnit + margin_m ? Sight::kHidden : Sight::kAgrees;
 }

@@ -12,17 +12,17 @@ namespace loopmark {
 /// Options of the registration engine; the defaults are meant for every sensor and scene.
 struct EngineOptions {
   double min_p_correct = 0.5;                ///< answers below this probability are withheld
-  std::size_t hypotheses = 12;               ///< bird's-eye-view hypotheses that are refined and verified
+  std::size_t candidates = 64;               ///< bird's-eye-view hypotheses that are looked at quickly
+  std::size_t hypotheses = 10;               ///< the best of these are refined and verified
   birdseye::CorrelationOptions correlation;  ///< of the bird's-eye views
-  std::uint64_t seed = 0;                    ///< of everything random
 };
 
 template <class Visitor>
 void describe(Visitor& v, EngineOptions& o) {
   v.field("min_p_correct", o.min_p_correct, "answers below this probability are withheld");
-  v.field("hypotheses", o.hypotheses, "bird's-eye-view hypotheses that are refined and verified");
+  v.field("candidates", o.candidates, "bird's-eye-view hypotheses that are looked at quickly");
+  v.field("hypotheses", o.hypotheses, "the best of these are refined and verified");
   v.section("correlation", o.correlation, "search for hypotheses in the bird's-eye view");
-  v.field("seed", o.seed, "seed of everything random");
 }
 
 }  // namespace loopmark

@@ -32,6 +32,7 @@ class RangeImage {
     kHidden,    ///< behind what the beams met
     kAgrees,    ///< where the beams met something
     kConflict,  ///< where the beams passed through
+    kClash,     ///< the same, and so did all beams of the directions around it: no edge, no hole in a crown
   };
 
   /// How a point (sensor's frame) goes with what this scan saw. `margin_m` is the tolerance in range.
@@ -40,6 +41,9 @@ class RangeImage {
   const std::vector<Cell>& cells() const { return cells_; }
 
  private:
+  /// Whether every beam in and around this bin went farther than `range` metres.
+  bool passes_around(int bin, float range) const;
+
   std::vector<Cell> cells_;
 };
 
