@@ -20,6 +20,8 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       {"doctor", "find out what a drive log or data set is and what is wrong with it", set_up_doctor},
       {"map", "turn a drive log into a loop-closed map", set_up_map},
+      {"merge", "join several runs into one map, with no idea where they are", set_up_merge},
+      {"extend", "map a log and join it to a run", set_up_extend},
       {"loops", "list the loops of a run, veto or force some, and solve the map again", set_up_loops},
       {"why", "tell stage by stage why two scans of a run make a loop or not", set_up_why},
       {"relocalize", "find the scans of a log in a map, with no hint where they are", set_up_relocalize},

@@ -7,7 +7,7 @@
 
 #include "commands.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/progress.hpp"
+#include "loopmark/io/trajectory.hpp"
 #include "loopmark/report/table.hpp"
 #include "loops_run.hpp"
 
@@ -111,15 +111,26 @@ std::vector<std::string> words_of(const LoopsArguments& a, const Globals& global
 }
 
 /// How far the poses went, so that a person sees at once what the decision did.
-void print_change(const SolvedMap& before, const SolvedMap& after) {
+void print_change(const std::vector<Pose>& before, const SolvedMap& after) {
   double largest_m = 0.0;
   std::size_t at = 0;
   for (std::size_t i = 0; i < after.T_map_scan.size(); ++i) {
-    const double moved = (after.T_map_scan[i].translation() - before.T_map_scan[i].translation()).norm();
+    const double moved = (after.T_map_scan[i].translation() - before[i].translation()).norm();
     at = moved > largest_m ? i : at;
     largest_m = std::max(largest_m, moved);
   }
   std::printf("poses moved by up to %.3f m (scan %zu)\n", largest_m, at);
+}
+
+/// The poses that the run shows now: solving for them again would take as long as the new solution.
+std::vector<Pose> poses_of(const OpenedRun& run) {
+  const std::filesystem::path file = run.folder / "trajectory.tum";
+  std::vector<Pose> poses = read_trajectory(file).poses;
+  if (poses.size() != run.scans.size()) {
+    throw InputError(file.string(), "",
+                     std::to_string(poses.size()) + " poses for " + std::to_string(run.scans.size()) + " scans");
+  }
+  return poses;
 }
 
 int loops(const LoopsArguments& a, const Globals& globals) {
@@ -130,7 +141,7 @@ int loops(const LoopsArguments& a, const Globals& globals) {
     list(run, run.solve(), a.csv);
     return 0;
   }
-  const OpenedRun old = open_run(a.run);
+  const std::vector<Pose> before = poses_of(run);
   apply(c, run);
   const SolvedMap map = run.solve();
   const Rewritten done = rewrite(run, map, a.output, a.maps, words_of(a, globals));
@@ -138,7 +149,7 @@ int loops(const LoopsArguments& a, const Globals& globals) {
   if (a.csv) {
     return 0;
   }
-  print_change(old.solve(), map);
+  print_change(before, map);
   if (done.summary.absolute) {
     std::printf("ATE %.3f m\n", done.summary.absolute->rmse_m);
   }

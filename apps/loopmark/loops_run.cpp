@@ -10,10 +10,11 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/files.hpp"
 #include "loopmark/core/progress.hpp"
-#include "loopmark/io/trajectory.hpp"
 #include "loopmark/slam/engine_registrar.hpp"
+#include "loopmark/slam/loop_closer.hpp"
 #include "loopmark/slam/products.hpp"
 #include "loopmark/slam/run_records.hpp"
+#include "merge_run.hpp"
 
 namespace loopmark::app {
 namespace fs = std::filesystem;
@@ -51,25 +52,20 @@ void veto(OpenedRun& run, const std::vector<Keyframe>& keyframes, const std::str
   decide(run, pair, Ruling::kVeto);
 }
 
-LoopRecord registered(const OpenedRun& run, const KeyframePair& pair) {
-  const auto prepared = [&](std::size_t keyframe) { return read_file(run.folder.keyframe(keyframe, "prepared")); };
-  const RegistrationResult result =
-      engine_registrar(run.options.registration)->align(prepared(pair.source), prepared(pair.target));
-  return {pair.source,
-          pair.target,
-          "person",
-          result.answered,
-          result.reason,
-          result.p_correct,
-          result.T_target_source,
-          result.covariance,
-          result.modes.empty() ? Evidence{} : result.modes.front().evidence};
+LoopRecord registered(const OpenedRun& run, const std::vector<Keyframe>& keyframes, const KeyframePair& pair) {
+  const auto registrar = engine_registrar(run.options.registration);
+  LoopRecord loop;
+  loop.source = pair.source;
+  loop.target = pair.target;
+  loop.origin = "person";
+  take_in(KeyframeRegistrar(run.folder, keyframes, *registrar).scans(pair.source, pair.target), loop);
+  return loop;
 }
 
 void force(OpenedRun& run, const std::vector<Keyframe>& keyframes, const std::string& text) {
   const KeyframePair pair = pair_named(text, run, keyframes);
   const std::size_t known = loop_of(run, pair);
-  const LoopRecord loop = known < run.loops.size() ? run.loops[known] : registered(run, pair);
+  const LoopRecord loop = known < run.loops.size() ? run.loops[known] : registered(run, keyframes, pair);
   if (loop.evidence.empty()) {
     throw InputError(run.folder.name().string(), text,
                      "registration finds no motion between these scans (" + loop.reason + ")",
@@ -124,18 +120,6 @@ MapTimes times_of(const OpenedRun& run) {
   return times;
 }
 
-std::vector<Pose> truth_of(const OpenedRun& run) {
-  if (!fs::exists(truth_file(run.folder))) {
-    return {};
-  }
-  std::vector<Pose> truth = read_trajectory(truth_file(run.folder)).poses;
-  if (truth.size() != run.scans.size()) {
-    throw InputError(truth_file(run.folder).string(), "",
-                     std::to_string(truth.size()) + " poses for " + std::to_string(run.scans.size()) + " scans");
-  }
-  return truth;
-}
-
 /// The manifest of the new run: the input as it was, and the hashes of files that are shared with the old run.
 Manifest manifest_of(const OpenedRun& run, const std::vector<std::string>& arguments) {
   const nlohmann::json old = json_file(run.folder / "manifest.json");
@@ -166,11 +150,14 @@ MapSummary write_all(const OpenedRun& run, const SolvedMap& map, const RunFolder
     write_clouds(folder, map, run.options.slam.cloud_voxel_m);
     write_mrpt_products(folder, run.scans, run.loops, map);
   }
-  const std::vector<Pose> truth = truth_of(run);
+  const std::vector<Pose> truth = truth_of(run.folder, run.scans.size());
   MapTimes times = times_of(run);
   times.solving = map.solution.seconds;
   times.products = watch.seconds();
-  MapSummary summary = summarize(run.scans, map, truth);
+  MapSummary summary = summarize(run.scans, run.loops, map, truth);
+  const std::vector<DriveRecord> drives = read_drives(run.folder);
+  summary.drives = drive_summaries(drives, map, truth);
+  summary.duration_s = driven_s(drives, run.scans);
   summary.compensation = json_file(run.folder / "summary.json").value("compensation", "unknown");
   write_map_report(folder, run.scans, run.loops, map, summary, times, truth);
   write_summary(folder, summary, times);

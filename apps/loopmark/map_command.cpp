@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "loopmark/config/options_io.hpp"
-#include "loopmark/core/files.hpp"
-#include "map_run.hpp"
+#include "map_job.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -35,37 +32,15 @@ void declare(CLI::App& command, MapArguments& a) {
   command.footer(kExamples);
 }
 
-std::filesystem::path job_file(const RunFolder& folder) { return folder / "records/job.json"; }
-
-void write_job(const RunFolder& folder, const MapJob& job, const AppOptions& options) {
-  const nlohmann::ordered_json json = {{"log", job.log.string()}, {"truth", job.truth.string()}};
-  write_file_atomically(folder / "config.yaml", options_as_yaml(options));
-  write_file_atomically(job_file(folder), json.dump(1) + "\n");
-}
-
 MapOutcome start(const MapArguments& a, const Globals& globals) {
   if (a.log.empty() || a.output.empty()) {
     throw InputError("loopmark map needs LOG and -o RUN, or --resume RUN (see: loopmark map --help)");
   }
-  const AppOptions options = globals.options();
-  if (!std::filesystem::exists(a.log)) {
-    throw InputError(a.log.string(), "", "there is no such log", "give a folder of scans or a rawlog");
-  }
-  const MapJob job{std::filesystem::absolute(a.log), a.truth.empty() ? a.truth : std::filesystem::absolute(a.truth)};
-  const RunFolder folder = RunFolder::create(a.output);
-  write_job(folder, job, options);
-  return run_map(folder, job, options);
-}
-
-MapOutcome go_on(const MapArguments& a) {
-  const RunFolder folder = RunFolder::resume(a.resume);
-  const AppOptions options = config::load<AppOptions>(folder / "config.yaml", {});
-  const nlohmann::json json = nlohmann::json::parse(read_file(job_file(folder)));
-  return run_map(folder, {json.at("log").get<std::string>(), json.at("truth").get<std::string>()}, options);
+  return start_map(a.log, a.truth, a.output, globals.options());
 }
 
 int map(const MapArguments& a, const Globals& globals) {
-  const MapOutcome outcome = a.resume.empty() ? start(a, globals) : go_on(a);
+  const MapOutcome outcome = a.resume.empty() ? start(a, globals) : resume_map(a.resume);
   const std::filesystem::path run = a.resume.empty() ? a.output : a.resume;
   std::printf("%s is whole:\n%s", run.c_str(), closing_table(outcome).c_str());
   std::printf("  map           %s\n  trajectory    %s\n  report        %s\n", (run / "map.bt").c_str(),

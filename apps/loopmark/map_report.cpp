@@ -8,6 +8,7 @@
 #include "loopmark/report/plot.hpp"
 #include "loopmark/report/table.hpp"
 #include "map_run.hpp"
+#include "part_tables.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -114,12 +115,14 @@ Rows rows(const MapSummary& s, const MapTimes& t) {
                {"scans were", s.compensation},
                {"keyframes", std::to_string(s.keyframes)},
                {"loops", std::to_string(s.loops) + " accepted of " + std::to_string(s.candidates) + " candidates"},
-               {"components", std::to_string(s.components)},
+               {"components", components_text(s.components)},
                {"time", fixed(t.whole, 1) + " s, " + fixed(static_cast<double>(s.scans) / t.whole, 1) + " scans/s, " +
                             fixed(s.duration_s / t.whole, 2) + " x real time"}};
   if (s.absolute) {
-    rows.push_back(
-        {"ATE", fixed(s.absolute->rmse_m, 3) + " m (odometry alone " + fixed(s.absolute_odometry->rmse_m, 3) + " m)"});
+    const std::string of =
+        s.components.size() > 1 ? " over " + std::to_string(s.absolute->poses) + " scans of main" : "";
+    rows.push_back({"ATE", fixed(s.absolute->rmse_m, 3) + " m" + of + " (odometry alone " +
+                               fixed(s.absolute_odometry->rmse_m, 3) + " m)"});
   }
   if (s.kitti) {
     rows.push_back({"t_err, r_err", s.kitti->pieces == 0 ? "- (path below 100 m)"
@@ -139,6 +142,15 @@ void write_map_report(const RunFolder& folder, const std::vector<ScanRecord>& sc
   page.heading("Trajectory");
   Plot trajectory = trajectory_plot(scans, loops, map);
   page.plot(trajectory, truth.empty() ? "" : trajectory_error_definitions());
+  if (!summary.drives.empty()) {
+    page.heading("Drives").table(drive_table(summary.drives));
+  }
+  if (!summary.joints.empty()) {
+    page.heading("Between drives").table(joint_table(summary.joints));
+  }
+  if (summary.components.size() > 1) {
+    page.heading("Parts without a common frame").table(component_table(summary.components));
+  }
   page.heading("Drift and tracking").plots({drift_plot(scans, map), health_plot(scans)});
   page.heading("Loops").table(loop_table(loops, map));
   page.heading("Time").plot(timing_plot(times));
@@ -146,12 +158,22 @@ void write_map_report(const RunFolder& folder, const std::vector<ScanRecord>& sc
 }
 
 void write_summary(const RunFolder& folder, const MapSummary& s, const MapTimes& t) {
-  nlohmann::ordered_json json = {{"scans", s.scans},           {"damaged", s.damaged},
-                                 {"recovered", s.recovered},   {"keyframes", s.keyframes},
-                                 {"candidates", s.candidates}, {"loops", s.loops},
-                                 {"components", s.components}, {"path_m", s.path_m},
-                                 {"duration_s", s.duration_s}, {"compensation", s.compensation},
-                                 {"damage", s.damage}};
+  nlohmann::ordered_json json = {{"scans", s.scans},
+                                 {"damaged", s.damaged},
+                                 {"recovered", s.recovered},
+                                 {"keyframes", s.keyframes},
+                                 {"candidates", s.candidates},
+                                 {"loops", s.loops},
+                                 {"components", s.components.size()},
+                                 {"path_m", s.path_m},
+                                 {"duration_s", s.duration_s},
+                                 {"compensation", s.compensation},
+                                 {"damage", s.damage},
+                                 {"parts", components_json(s.components)}};
+  if (!s.drives.empty()) {
+    json["drives"] = drives_json(s.drives);
+    json["joints"] = joints_json(s.joints);
+  }
   if (s.absolute) {
     json["ate_rmse_m"] = s.absolute->rmse_m;
     json["ate_odometry_rmse_m"] = s.absolute_odometry->rmse_m;

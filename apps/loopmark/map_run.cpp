@@ -94,15 +94,8 @@ void feed(Mapper& mapper, const DriveLog& log, MapTimes& times) {
 
 void close_loops(Mapper& mapper, MapTimes& times) {
   const Stopwatch watch;
-  std::unique_ptr<Progress> progress;
-  std::size_t shown = 0;
-  mapper.close_loops([&](std::size_t done, std::size_t total) {
-    if (!progress) {
-      progress = std::make_unique<Progress>("loop candidates", total);
-    }
-    progress->add(done - shown, memory_text());
-    shown = done;
-  });
+  LoopProgress progress;
+  mapper.close_loops([&](std::size_t done, std::size_t total) { progress.show(done, total); });
   times.loops = watch.seconds();
 }
 
@@ -157,7 +150,45 @@ void keep_truth(const RunFolder& folder, const DriveLog& log, const std::vector<
   }
 }
 
+/// Compares the scans that have a place in the map with the truth, where that is known.
+void judge(const std::vector<ScanRecord>& scans, const SolvedMap& map, const std::vector<Pose>& truth,
+           MapSummary& summary) {
+  std::vector<Pose> solved;
+  std::vector<Pose> odometry;
+  std::vector<Pose> true_poses;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (map.component[i] == 0) {
+      solved.push_back(map.T_map_scan[i]);
+      odometry.push_back(scans[i].T_piece_lidar);
+      true_poses.push_back(truth[i]);
+    }
+  }
+  if (!true_poses.empty()) {
+    summary.absolute = absolute_error(solved, true_poses);
+    summary.absolute_odometry = absolute_error(odometry, true_poses);
+    summary.kitti = kitti_error(solved, true_poses);
+  }
+}
+
 }  // namespace
+
+void LoopProgress::show(std::size_t done, std::size_t total) {
+  if (total_ != total) {
+    progress_ = std::make_unique<Progress>("loop candidates", total);
+    progress_->add(shown_);
+    total_ = total;
+  }
+  progress_->add(done - shown_, memory_text());
+  shown_ = done;
+}
+
+void write_maps(const RunFolder& folder, const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops,
+                const SolvedMap& map, const AppOptions& options) {
+  write_trajectory_products(folder, scans, loops, map);
+  write_occupancy(folder, map, options.occupancy);
+  write_clouds(folder, map, options.slam.cloud_voxel_m);
+  write_mrpt_products(folder, scans, loops, map);
+}
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -166,7 +197,8 @@ std::string utc_now() {
   return text;
 }
 
-MapSummary summarize(const std::vector<ScanRecord>& scans, const SolvedMap& map, const std::vector<Pose>& truth) {
+MapSummary summarize(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops, const SolvedMap& map,
+                     const std::vector<Pose>& truth) {
   MapSummary s;
   s.scans = scans.size();
   for (const ScanRecord& scan : scans) {
@@ -180,18 +212,10 @@ MapSummary summarize(const std::vector<ScanRecord>& scans, const SolvedMap& map,
   s.candidates = map.loops.size();
   s.loops = static_cast<std::size_t>(
       std::count_if(map.loops.begin(), map.loops.end(), [](const LoopVerdict& loop) { return loop.accepted; }));
-  s.components = map.components;
+  s.components = map_components(scans, loops, map);
   s.path_m = map.keyframes.back().path_m;
   s.duration_s = scans.back().stamp_s - scans.front().stamp_s;
-  if (!truth.empty()) {
-    s.absolute = absolute_error(map.T_map_scan, truth);
-    s.kitti = kitti_error(map.T_map_scan, truth);
-    std::vector<Pose> odometry;
-    for (const ScanRecord& scan : scans) {
-      odometry.push_back(scan.T_piece_lidar);
-    }
-    s.absolute_odometry = absolute_error(odometry, truth);
-  }
+  judge(scans, map, truth, s);
   return s;
 }
 
@@ -231,12 +255,9 @@ MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& option
   times.solving = part.seconds();
 
   part.reset();
-  write_trajectory_products(folder, mapper.scans(), mapper.loops(), map);
-  write_occupancy(folder, map, options.occupancy);
-  write_clouds(folder, map, options.slam.cloud_voxel_m);
-  write_mrpt_products(folder, mapper.scans(), mapper.loops(), map);
+  write_maps(folder, mapper.scans(), mapper.loops(), map, options);
   times.products = part.seconds();
-  outcome.summary = summarize(mapper.scans(), map, truth);
+  outcome.summary = summarize(mapper.scans(), mapper.loops(), map, truth);
   outcome.summary.compensation = name(compensation);
   times.whole = whole.seconds();
   write_map_report(folder, mapper.scans(), mapper.loops(), map, outcome.summary, times, truth);

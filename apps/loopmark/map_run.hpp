@@ -3,12 +3,15 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app_options.hpp"
+#include "loopmark/core/progress.hpp"
 #include "loopmark/io/drive_log.hpp"
+#include "loopmark/slam/map_components.hpp"
 #include "loopmark/slam/mapper.hpp"
 #include "loopmark/slam/trajectory_metrics.hpp"
 
@@ -30,6 +33,30 @@ struct MapTimes {
   double whole = 0.0;
 };
 
+/// What became of one drive of a run that was merged from several.
+struct DriveSummary {
+  std::string name;
+  std::string log;
+  bool belongs = true;         ///< false: left out of the run
+  std::size_t first_scan = 0;  ///< in the run; of a drive that belongs
+  std::size_t scans = 0;
+  std::size_t keyframes = 0;
+  std::size_t in_map = 0;                 ///< keyframes that have a place in the map
+  std::string reason;                     ///< why it was left out
+  std::optional<AbsoluteError> absolute;  ///< of its scans in the map against its own truth, fitted by themselves
+};
+
+/// What was found between two drives, by their names.
+struct JointSummary {
+  std::string first;
+  std::string second;
+  std::size_t candidates = 0;
+  std::size_t accepted = 0;
+  std::size_t checked = 0;
+  std::size_t agree = 0;
+  double best_p = 0.0;
+};
+
 /// What a run came to.
 struct MapSummary {
   std::size_t scans = 0;
@@ -38,14 +65,16 @@ struct MapSummary {
   std::size_t keyframes = 0;
   std::size_t candidates = 0;
   std::size_t loops = 0;  ///< accepted
-  std::size_t components = 0;
+  std::vector<MapComponent> components;
   double path_m = 0.0;
   double duration_s = 0.0;  ///< from the first to the last stamp
   std::string compensation;
-  std::optional<AbsoluteError> absolute;
-  std::optional<AbsoluteError> absolute_odometry;  ///< before the loops
+  std::optional<AbsoluteError> absolute;           ///< of the scans that have a place in the map
+  std::optional<AbsoluteError> absolute_odometry;  ///< of the same, before the loops
   std::optional<KittiError> kitti;
-  std::vector<std::string> damage;  ///< a line for each damaged scan
+  std::vector<std::string> damage;   ///< a line for each damaged scan
+  std::vector<DriveSummary> drives;  ///< of a merged run; else empty
+  std::vector<JointSummary> joints;  ///< found when they were merged
 };
 
 struct MapOutcome {
@@ -59,6 +88,21 @@ Compensation compensation_of(const DriveLog& log, const SlamOptions& options);
 /// From a log to a whole run folder. Throws InputError (the partial run stays) or Interrupted (it can be resumed).
 MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options);
 
+/// How far the search for loops is, on one line. Parts that nothing joins bring more candidates as it goes.
+class LoopProgress {
+ public:
+  void show(std::size_t done, std::size_t total);
+
+ private:
+  std::unique_ptr<Progress> progress_;
+  std::size_t shown_ = 0;
+  std::size_t total_ = 0;
+};
+
+/// Trajectories, occupancy, clouds and MRPT's files of a solved map.
+void write_maps(const RunFolder& folder, const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops,
+                const SolvedMap& map, const AppOptions& options);
+
 /// The time, as manifests name it (ISO 8601, UTC).
 std::string utc_now();
 
@@ -66,7 +110,8 @@ std::string utc_now();
 inline std::filesystem::path truth_file(const RunFolder& folder) { return folder / "records/truth.tum"; }
 
 /// What the map came to, but for `compensation`. `truth`: one pose for every scan, or none.
-MapSummary summarize(const std::vector<ScanRecord>& scans, const SolvedMap& map, const std::vector<Pose>& truth);
+MapSummary summarize(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops, const SolvedMap& map,
+                     const std::vector<Pose>& truth);
 
 /// summary.json: no times, so that the same run gives the same bytes. timings.json: the times.
 void write_summary(const RunFolder& folder, const MapSummary& summary, const MapTimes& times);

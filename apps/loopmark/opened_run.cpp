@@ -7,7 +7,9 @@
 
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/io/trajectory.hpp"
 #include "loopmark/slam/run_records.hpp"
+#include "map_run.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -32,6 +34,18 @@ OpenedRun open_run(const std::filesystem::path& run, const std::vector<std::stri
     throw InputError(folder.scan_records().string(), "", "the run holds no keyframe");
   }
   return opened;
+}
+
+std::vector<Pose> truth_of(const RunFolder& run, std::size_t scans) {
+  if (!std::filesystem::exists(truth_file(run))) {
+    return {};
+  }
+  std::vector<Pose> truth = read_trajectory(truth_file(run)).poses;
+  if (truth.size() != scans) {
+    throw InputError(truth_file(run).string(), "",
+                     std::to_string(truth.size()) + " poses for " + std::to_string(scans) + " scans");
+  }
+  return truth;
 }
 
 std::size_t keyframe_named(const std::string& word, const OpenedRun& run, const std::vector<Keyframe>& keyframes,

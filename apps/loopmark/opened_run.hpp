@@ -28,6 +28,9 @@ struct OpenedRun {
 /// Throws InputError when there is no whole run or it holds no keyframe. `settings` change the run's options.
 OpenedRun open_run(const std::filesystem::path& run, const std::vector<std::string>& settings = {});
 
+/// records/truth.tum of a run: one pose for each of its scans, or none. Throws InputError when there are others.
+std::vector<Pose> truth_of(const RunFolder& run, std::size_t scans);
+
 /// Two keyframes, the later one first.
 struct KeyframePair {
   std::size_t source = 0;

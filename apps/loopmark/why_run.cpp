@@ -6,10 +6,10 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/report/picture.hpp"
 #include "loopmark/slam/engine_registrar.hpp"
+#include "loopmark/slam/loop_closer.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -123,8 +123,11 @@ Inquiry inquire(const OpenedRun& run, const SolvedMap& map, const KeyframePair& 
   if (loop < run.loops.size()) {
     q.loop = loop;
   }
-  const auto prepared = [&](std::size_t keyframe) { return read_file(run.folder.keyframe(keyframe, "prepared")); };
-  q.registration = engine_registrar(run.options.registration)->align(prepared(pair.source), prepared(pair.target));
+  const auto registrar = engine_registrar(run.options.registration);
+  const KeyframeRegistrar pairs(run.folder, map.keyframes, *registrar);
+  q.registration = q.loop && run.loops[*q.loop].origin == kSubmapOrigin
+                       ? pairs.submaps(pair.source, pair.target, run.options.slam.submap_keyframes)
+                       : pairs.scans(pair.source, pair.target);
   return q;
 }
 

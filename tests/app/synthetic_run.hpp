@@ -38,6 +38,7 @@ struct SyntheticRun {
     write_file_atomically(folder / "config.yaml", app::options_as_yaml(app::AppOptions()));
     std::vector<double> stamps(truth.size());
     write_tum(folder / "records/truth.tum", stamps, truth);
+    write_tum(folder / "trajectory.tum", stamps, truth);
     write_file_atomically(folder / "summary.json", "{\"compensation\": \"compensated already\"}\n");
     write_file_atomically(folder / "timings.json", "{\"whole\": 12.0}\n");
     write_file_atomically(folder / "cloud.ply", "old");

@@ -75,6 +75,19 @@ inline void add_wrong_loop(Drive& drive, Rng& rng) {
   drive.graph.edges.push_back({from, to, T, information(drive.loop_sigma_m, drive.loop_sigma_deg), EdgeKind::kLoop});
 }
 
+/// `count` loops that are wrong in the same way, as between two blocks that look alike: all agree with one another that
+/// the second half of the drive passes `shift` further on, every `spacing` nodes.
+inline void add_alike_wrong_loops(Drive& drive, std::size_t count, std::size_t spacing, const Pose& shift, Rng& rng) {
+  const std::size_t half = drive.truth.size() / 2;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t from = half / 5 + i * spacing;
+    const std::size_t to = half + half / 5 + i * spacing;
+    const Pose T = exp_se3(noise(rng, drive.loop_sigma_m, drive.loop_sigma_deg)) * drive.truth[from].inverse() * shift *
+                   drive.truth[to];
+    drive.graph.edges.push_back({from, to, T, information(drive.loop_sigma_m, drive.loop_sigma_deg), EdgeKind::kLoop});
+  }
+}
+
 /// Root mean square of the positions' errors, both in the frame of the first node.
 inline double ate(const std::vector<Pose>& estimate, const std::vector<Pose>& truth) {
   double sum = 0.0;

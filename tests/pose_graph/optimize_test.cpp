@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ctime>
 
 #include "drives.hpp"
 #include "loopmark/core/error.hpp"
@@ -90,12 +91,92 @@ TEST_P(WrongLoops, ThirtyPercentDoNotBendTheMap) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, WrongLoops, ::testing::Combine(::testing::Bool(), ::testing::Values(3, 4, 5)));
 
+class AlikeWrongLoops : public ::testing::TestWithParam<std::tuple<bool, int>> {};
+
+/// Wrong loops that agree with one another are the harder case: here they are 30 % of all.
+TEST_P(AlikeWrongLoops, ThirtyPercentThatAgreeDoNotBendTheMap) {
+  const auto [check_consistency, seed] = GetParam();
+  Drive drive = two_laps(1000.0, 10, static_cast<std::uint64_t>(seed));
+  const double clean = ate(optimize(drive.graph).T_map_node, drive.truth);
+  const std::size_t true_edges = drive.graph.edges.size();
+  const std::size_t loops = true_edges - (drive.truth.size() - 1);
+  Rng rng(static_cast<std::uint64_t>(seed) + 200);
+  add_alike_wrong_loops(drive, loops * 3 / 7, 3, pose_from_yaw(0.3, {25.0, -14.0, 0.5}), rng);
+  PoseGraphOptions options;
+  options.consistency_check = check_consistency;
+  const PoseGraphSolution solution = optimize(drive.graph, options);
+  EXPECT_LE(ate(solution.T_map_node, drive.truth), 1.2 * clean);
+  for (std::size_t e = 0; e < solution.edges.size(); ++e) {
+    EXPECT_EQ(solution.edges[e].verdict == EdgeVerdict::kAccepted, e < true_edges) << e;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, AlikeWrongLoops, ::testing::Combine(::testing::Bool(), ::testing::Values(3, 4, 5)));
+
+/// Consistency alone, with plain least squares behind it, does the same where no true loop is far off.
+TEST(Optimize, ConsistencyAloneLeavesOutWrongLoops) {
+  Drive drive = two_laps(1000.0, 10, 18);
+  const double clean = ate(optimize(drive.graph).T_map_node, drive.truth);
+  Rng rng(19);
+  for (int i = 0; i < 15; ++i) {
+    add_wrong_loop(drive, rng);
+  }
+  PoseGraphOptions options;
+  options.robust = false;
+  const PoseGraphSolution solution = optimize(drive.graph, options);
+  EXPECT_LE(ate(solution.T_map_node, drive.truth), 1.2 * clean);
+  EXPECT_EQ(count(solution, EdgeVerdict::kInconsistent), 15U);
+  EXPECT_EQ(solution.robust_steps, 0U);
+}
+
+/// Two pieces, true loops between them and fewer wrong ones that agree: the larger group places the second piece.
+TEST(Optimize, TheLargerAgreeingGroupPlacesAPiece) {
+  Drive drive = two_laps(400.0, 10, 16);
+  const double clean = ate(optimize(drive.graph).T_map_node, drive.truth);
+  const std::size_t half = drive.truth.size() / 2;
+  std::erase_if(drive.graph.edges,
+                [&](const PoseGraphEdge& e) { return e.kind == EdgeKind::kOdometry && e.to == half; });
+  for (std::size_t i = half; i < drive.truth.size(); ++i) {
+    drive.graph.T_map_node[i] = pose_from_yaw(2.0, {500, -300, 7}) * drive.graph.T_map_node[i];
+  }
+  Rng rng(17);
+  add_alike_wrong_loops(drive, 8, 4, pose_from_yaw(0.0, {40.0, 3.0, 0.0}), rng);
+  const PoseGraphSolution solution = optimize(drive.graph);
+  EXPECT_EQ(solution.components.size(), 1U);
+  EXPECT_LE(ate(solution.T_map_node, drive.truth), 1.5 * clean);
+  EXPECT_EQ(count(solution, EdgeVerdict::kInconsistent), 8U);
+}
+
+/// A loop that nothing held along x is wide there: the pose follows odometry in x and the loop in y, each weighted by
+/// its variance (closed form).
+TEST(Optimize, ALoopIsBelievedOnlyAlongTheDirectionsThatHeldIt) {
+  Matrix6d covariance = 1e-10 * Matrix6d::Identity();  // no turn: it would move the far end sideways
+  covariance(0, 0) = 400.0;
+  PoseGraph graph;
+  graph.T_map_node.assign(2, Pose::Identity());
+  graph.edges.push_back({0, 1, pose_from_yaw(0.0, {10, 0, 0}), 4.0 * Matrix6d::Identity(), EdgeKind::kOdometry});
+  graph.edges.push_back(
+      {0, 1, pose_from_yaw(0.0, {25, 1.5, 0}), information_from_covariance(covariance, 1.0, 0.01), EdgeKind::kLoop});
+  const PoseGraphSolution solution = optimize(graph);
+  ASSERT_EQ(solution.edges[1].verdict, EdgeVerdict::kAccepted);
+  const auto between = [](double a, double a_variance, double b, double b_variance) {
+    return (a / a_variance + b / b_variance) / (1.0 / a_variance + 1.0 / b_variance);
+  };
+  EXPECT_NEAR(solution.T_map_node[1].translation().x(), between(10.0, 0.25, 25.0, 401.0), 1e-3);
+  EXPECT_NEAR(solution.T_map_node[1].translation().y(), between(0.0, 0.25, 1.5, 1.0), 1e-3);
+
+  const PoseGraphEdge sure{0, 1, graph.edges[1].T_from_to, 4.0 * Matrix6d::Identity(), EdgeKind::kLoop};
+  graph.edges[1] = sure;
+  EXPECT_EQ(optimize(graph).edges[1].verdict, EdgeVerdict::kOutlier) << "as sure along x, the loop contradicts";
+}
+
 TEST(Optimize, WithoutRobustnessAWrongLoopBendsTheMap) {
   Drive drive = two_laps(400.0, 10, 6);
   Rng rng(7);
   add_wrong_loop(drive, rng);
   PoseGraphOptions options;
   options.robust = false;
+  options.consistency_check = false;
   EXPECT_GT(ate(optimize(drive.graph, options).T_map_node, drive.truth),
             3.0 * ate(optimize(drive.graph).T_map_node, drive.truth));
 }
@@ -169,9 +250,11 @@ TEST(Optimize, SolvesFiveKilometresInAFewSeconds) {
     add_wrong_loop(drive, rng);
   }
   ASSERT_GE(drive.truth.size(), 2500U);
+  const std::clock_t before = std::clock();  // of this process: other programs on the machine do not count
   const PoseGraphSolution solution = optimize(drive.graph);
-  RecordProperty("seconds", std::to_string(solution.seconds));
-  EXPECT_LT(solution.seconds, 5.0);
+  const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  RecordProperty("seconds", std::to_string(seconds));
+  EXPECT_LT(seconds, 5.0);
   // The limits are 99.9 % quantiles: of 460 true loops one may fall out.
   EXPECT_GE(count(solution, EdgeVerdict::kAccepted) + 3, drive.graph.edges.size() - 90);
   EXPECT_LE(count(solution, EdgeVerdict::kAccepted), drive.graph.edges.size() - 90);

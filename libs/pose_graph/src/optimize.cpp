@@ -163,10 +163,10 @@ PoseGraphSolution optimize(const PoseGraph& given, const PoseGraphOptions& optio
   solution.edges.resize(graph.edges.size());
   const Pieces pieces = find_pieces(graph);
   std::vector<LoopGroup> groups = group_loops(graph, pieces);
-  if (options.robust && options.consistency_check) {
+  if (options.consistency_check) {
     keep_consistent(graph, pieces, options, groups, solution.edges);
   }
-  const std::size_t min_links = options.robust ? options.min_links : 1;
+  const std::size_t min_links = options.robust || options.consistency_check ? options.min_links : 1;
   reject_thin_links(graph, pieces, groups, min_links, solution.edges);
   solution.T_map_node = placed_poses(graph, pieces, groups, solution.edges, min_links);
   if (options.robust) {

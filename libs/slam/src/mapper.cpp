@@ -3,22 +3,19 @@
 #include "loopmark/slam/mapper.hpp"
 
 #include <algorithm>
-#include <set>
+#include <cmath>
 #include <utility>
 
 #include "keyframe_files.hpp"
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/files.hpp"
-#include "loopmark/core/interrupt.hpp"
-#include "loopmark/core/parallel.hpp"
 #include "loopmark/io/drive_log.hpp"
-#include "loopmark/places/place_index.hpp"
+#include "loopmark/slam/loop_closer.hpp"
 
 namespace loopmark {
 namespace {
 
-constexpr std::size_t kLeastPoints = 100;    // of a scan that can be used, after thinning
-constexpr std::size_t kPieceNeighbours = 3;  // keyframes before a new piece that its first keyframes are tried with
+constexpr std::size_t kLeastPoints = 100;  // of a scan that can be used, after thinning
 
 std::filesystem::path state_file(const RunFolder& folder) { return folder / "records/odometry.state"; }
 
@@ -41,7 +38,35 @@ void check(const SlamOptions& o) {
   require_option(o.min_loop_p >= 0.0 && o.min_loop_p <= 1.0, "min_loop_p", "must be 0 to 1");
   require_option(o.drift_m_per_m >= 0.0 && o.drift_deg_per_m >= 0.0, "drift_m_per_m", "must not be negative");
   require_option(o.floor_m > 0.0 && o.floor_deg > 0.0, "floor_m", "must be positive");
+  require_option(o.max_gap_s > 0.0, "max_gap_s", "must be positive");
+  require_option(o.submap_keyframes >= 1, "submap_keyframes", "must be at least 1");
 }
+
+namespace {
+
+bool same_place(const Pose& a, const Pose& b) {
+  const PoseError error = pose_error(a, b);
+  return error.translation_m < 1.0 && error.rotation_deg < 5.0;
+}
+
+/// Registers a prepared scan to the latest keyframes of the last piece, until `enough` says so of an answer.
+bool registers(const Registrar& registrar, const RunFolder& folder, const std::vector<Keyframe>& keyframes,
+               const SlamOptions& options, const std::string& source,
+               const std::function<bool(const Pose& T_piece_lidar, double p_correct)>& enough) {
+  for (std::size_t back = 0; back < options.recovery_keyframes && back < keyframes.size(); ++back) {
+    const Keyframe& keyframe = keyframes[keyframes.size() - 1 - back];
+    if (keyframe.piece != keyframes.back().piece) {
+      break;
+    }
+    const RegistrationResult result = registrar.align(source, read_file(folder.keyframe(keyframe.number, "prepared")));
+    if (result.answered && enough(keyframe.T_piece_lidar * result.T_target_source, result.p_correct)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
 
 /// A scan on its way into the map.
 struct Mapper::Placed {
@@ -57,9 +82,9 @@ Mapper::Mapper(const RunFolder& folder, const MapperOptions& options, std::share
       registrar_(std::move(registrar)),
       odometry_(options.odometry, compensation, sweep) {
   check(options_.slam);
-  load();
+  loop_file_ = std::make_unique<RecordWriter>(folder_.loop_records());  // refused while another process is at it,
+  load();                                                               // before this one cuts anything back
   scan_file_ = std::make_unique<RecordWriter>(folder_.scan_records());
-  loop_file_ = std::make_unique<RecordWriter>(folder_.loop_records());
 }
 
 Mapper::~Mapper() = default;
@@ -113,7 +138,8 @@ const ScanRecord& Mapper::add(const Scan& scan) {
   return keep(std::move(record));
 }
 
-/// Tracks the scan; a lost one is registered to the latest keyframes; one that fits nowhere starts a new piece.
+/// Tracks the scan; a lost one is registered to the latest keyframes; one that fits nowhere starts a new piece, and so
+/// does one behind a long gap, which no motion model reaches across, unless registration confirms it.
 Mapper::Placed Mapper::place(const Scan& scan) {
   Placed placed{odometry_.track(scan), ScanState::kTracked, ""};
   if (placed.tracked.sample.size() < kLeastPoints) {
@@ -122,55 +148,86 @@ Mapper::Placed Mapper::place(const Scan& scan) {
   }
   if (keyframes_.empty()) {
     placed.state = ScanState::kNewPiece;
+  } else if (after_gap(scan.stamp_s)) {
+    // The sensor may have stood still: odometry is believed where registration, which does not know of it, agrees.
+    const bool confirmed =
+        registrar_ && placed.tracked.health.tracking != Tracking::kLost &&
+        registers(*registrar_, folder_, keyframes_, options_.slam,
+                  registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.velocity)),
+                  [&](const Pose& pose, double) { return same_place(pose, placed.tracked.T_map_lidar); });
+    if (!confirmed) {
+      start_piece(scan, "a gap between the scans", placed);
+    }
   } else if (placed.tracked.health.tracking == Tracking::kLost) {
     placed.problem = placed.tracked.health.reason;
     if (recover(scan, placed)) {
       placed.state = ScanState::kRecovered;
     } else {
-      // Where the motion so far would have led: a guess that only the start of the new piece rests on.
-      const ScanRecord& last = scans_.back();
-      odometry_.restart(last.T_piece_lidar * exp_se3((scan.stamp_s - last.stamp_s) * last.velocity));
-      placed.tracked = odometry_.track(scan);
-      placed.state = ScanState::kNewPiece;
-      ++piece_;
+      start_piece(scan, placed.problem, placed);
     }
   }
   return placed;
 }
 
-/// Global registration to the latest keyframes of the piece: one sure answer, or two that agree.
+/// Whether the gap to the last good scan is long, both in seconds and against those before. Stamps that jump back are a
+/// gap, too.
+bool Mapper::after_gap(double stamp_s) const {
+  constexpr std::size_t kRemembered = 20;
+  constexpr std::size_t kLeastKnown = 5;
+  constexpr double kTimesUsual = 10.0;
+  std::vector<double> stamps;
+  for (auto scan = scans_.rbegin(); scan != scans_.rend() && stamps.size() <= kRemembered; ++scan) {
+    if (scan->state != ScanState::kDamaged) {
+      stamps.push_back(scan->stamp_s);
+    }
+  }
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    gaps.push_back(std::abs(stamps[i - 1] - stamps[i]));
+  }
+  if (gaps.size() < kLeastKnown) {
+    return false;
+  }
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return std::abs(stamp_s - stamps.front()) > std::max(options_.slam.max_gap_s, kTimesUsual * *middle);
+}
+
+/// The new piece starts where the motion so far would have led: a guess that nothing else rests on.
+void Mapper::start_piece(const Scan& scan, const std::string& problem, Placed& placed) {
+  const auto last =
+      std::find_if(scans_.rbegin(), scans_.rend(), [](const ScanRecord& s) { return s.state != ScanState::kDamaged; });
+  const double ahead_s = std::clamp(scan.stamp_s - last->stamp_s, 0.0, options_.slam.max_gap_s);
+  odometry_.restart(last->T_piece_lidar * exp_se3(ahead_s * last->velocity));
+  placed.tracked = odometry_.track(scan);
+  placed.state = ScanState::kNewPiece;
+  placed.problem = problem;
+  ++piece_;
+}
+
+/// Global registration to the latest keyframes of the piece: two answers that agree, or a sure one where the piece has
+/// no second keyframe.
 bool Mapper::recover(const Scan& scan, Placed& placed) const {
   if (!registrar_) {
     return false;
   }
-  const std::string source = registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.velocity));
+  const bool only_one = keyframes_.size() < 2 || keyframes_[keyframes_.size() - 2].piece != piece_ ||
+                        options_.slam.recovery_keyframes < 2;
   std::vector<Pose> answers;
-  for (std::size_t back = 0; back < options_.slam.recovery_keyframes && back < keyframes_.size(); ++back) {
-    const Keyframe& keyframe = keyframes_[keyframes_.size() - 1 - back];
-    if (keyframe.piece != piece_) {
-      break;
-    }
-    const RegistrationResult result =
-        registrar_->align(source, read_file(folder_.keyframe(keyframe.number, "prepared")));
-    if (!result.answered) {
-      continue;
-    }
-    const Pose pose = keyframe.T_piece_lidar * result.T_target_source;
-    const bool agrees = std::any_of(answers.begin(), answers.end(), [&](const Pose& other) {
-      const PoseError error = pose_error(pose, other);
-      return error.translation_m < 1.0 && error.rotation_deg < 5.0;
-    });
-    if (agrees || result.p_correct >= options_.slam.min_loop_p) {
+  const std::string source = registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.velocity));
+  return registers(*registrar_, folder_, keyframes_, options_.slam, source, [&](const Pose& pose, double p_correct) {
+    const bool agrees =
+        std::any_of(answers.begin(), answers.end(), [&](const Pose& other) { return same_place(pose, other); });
+    if (agrees || (only_one && p_correct >= options_.slam.min_loop_p)) {
       placed.tracked = odometry_.track_from(scan, pose);
-      const PoseError moved = pose_error(placed.tracked.T_map_lidar, pose);
-      if (moved.translation_m > 1.0 || moved.rotation_deg > 5.0) {
+      if (!same_place(placed.tracked.T_map_lidar, pose)) {
         placed.tracked.T_map_lidar = pose;  // the local map draws it elsewhere: believe the registration
       }
       return true;
     }
     answers.push_back(pose);
-  }
-  return false;
+    return false;
+  });
 }
 
 bool Mapper::deserves_keyframe(const TrackedScan& tracked, ScanState state) const {
@@ -216,78 +273,13 @@ void Mapper::add_damaged(std::size_t scan, double stamp_s, const std::string& pr
   }
 }
 
-/// Places that look alike, and for the first keyframes of a piece the last ones of the pieces before.
-std::vector<std::vector<LoopRecord>> Mapper::candidates() const {
-  std::vector<std::vector<LoopRecord>> result(keyframes_.size());
-  PlaceIndex index;
-  double looked_up_m = -options_.slam.loop_every_m;
-  for (std::size_t k = 0; k < keyframes_.size(); ++k) {
-    std::set<std::size_t> tried;
-    const auto add = [&](std::size_t target, const char* origin) {
-      if (tried.insert(target).second) {
-        LoopRecord candidate;
-        candidate.source = k;
-        candidate.target = target;
-        candidate.origin = origin;
-        result[k].push_back(candidate);
-      }
-    };
-    for (std::size_t back = 1; back <= kPieceNeighbours && back <= k; ++back) {
-      if (keyframes_[k - back].piece != keyframes_[k].piece) {
-        add(k - back, "neighbour");
-      }
-    }
-    const PlaceSignature signature = read_keyframe_place(folder_, k);
-    const auto apart = [&](std::size_t earlier) {
-      return keyframes_[earlier].piece != keyframes_[k].piece ||
-             keyframes_[k].path_m - keyframes_[earlier].path_m > options_.slam.loop_gap_m;
-    };
-    const bool due = keyframes_[k].path_m - looked_up_m >= options_.slam.loop_every_m;
-    looked_up_m = due ? keyframes_[k].path_m : looked_up_m;
-    for (const PlaceMatch& match : index.query(signature, due ? options_.slam.loop_candidates : 0, apart)) {
-      add(match.id, "place");
-    }
-    index.add(k, signature);
-  }
-  return result;
-}
-
 void Mapper::close_loops(const std::function<void(std::size_t, std::size_t)>& progress) {
   if (!registrar_ || !options_.slam.close_loops) {
     return;
   }
-  constexpr std::size_t kBatch = 8;  // between two looks at the interrupt flag
-  std::vector<LoopRecord> todo;
-  for (const std::vector<LoopRecord>& of_keyframe : candidates()) {
-    todo.insert(todo.end(), of_keyframe.begin(), of_keyframe.end());
-  }
-  // Candidates follow from the keyframes alone, so those on record are the first ones.
-  for (std::size_t done = loops_.size(); done < todo.size();) {
-    check_interrupt();
-    const std::size_t batch = std::min(kBatch, todo.size() - done);
-    parallel_for(batch, [&](std::size_t i) { todo[done + i] = registered(todo[done + i]); });
-    for (std::size_t i = 0; i < batch; ++i, ++done) {
-      loop_file_->append(to_line(todo[done]));
-      loops_.push_back(todo[done]);
-    }
-    if (progress) {
-      progress(done, todo.size());
-    }
-  }
-}
-
-LoopRecord Mapper::registered(LoopRecord candidate) const {
-  const RegistrationResult result = registrar_->align(read_file(folder_.keyframe(candidate.source, "prepared")),
-                                                      read_file(folder_.keyframe(candidate.target, "prepared")));
-  candidate.answered = result.answered;
-  candidate.reason = result.reason;
-  candidate.p_correct = result.p_correct;
-  candidate.T_target_source = result.T_target_source;
-  candidate.covariance = result.covariance;
-  if (!result.modes.empty()) {
-    candidate.evidence = result.modes.front().evidence;
-  }
-  return candidate;
+  const LoopCloser closer(folder_, options_.slam, options_.pose_graph, *registrar_);
+  closer.close(
+      scans_, loops_, 0, [&](const LoopRecord& loop) { loop_file_->append(to_line(loop)); }, progress);
 }
 
 SolvedMap Mapper::solve() const { return solve_map(scans_, loops_, options_.slam, options_.pose_graph); }

@@ -8,13 +8,17 @@
 namespace loopmark {
 namespace {
 
-/// Covariance of the motion between two keyframes: the later one's alignment, and drift over the distance.
+/// Covariance of the motion between two keyframes: the later one's alignment (wide along directions that nothing held),
+/// drift over the distance, and what registration leaves where it placed the later one.
 Matrix6d odometry_covariance(const Keyframe& from, const Keyframe& to, const SlamOptions& options) {
   const double distance = to.path_m - from.path_m;
   const double metres = options.drift_m_per_m * distance;
   const double radians = options.drift_deg_per_m * distance * M_PI / 180.0;
+  const double loop_m = to.recovered ? options.loop_floor_m : 0.0;
+  const double loop_rad = to.recovered ? options.loop_floor_deg * M_PI / 180.0 : 0.0;
   Vector6d drift;
-  drift << Eigen::Vector3d::Constant(metres * metres), Eigen::Vector3d::Constant(radians * radians);
+  drift << Eigen::Vector3d::Constant(metres * metres + loop_m * loop_m),
+      Eigen::Vector3d::Constant(radians * radians + loop_rad * loop_rad);
   const Matrix6d in_lidar = to.covariance + Matrix6d(drift.asDiagonal());
   const Matrix6d A = adjoint(from.T_piece_lidar.inverse() * to.T_piece_lidar);
   const Matrix6d in_from = A * in_lidar * A.transpose();
@@ -77,6 +81,23 @@ void judge_loops(SolvedMap& map) {
   }
 }
 
+/// The component with most keyframes is the map. Poses stay as they are: each component has a frame of its own.
+void put_largest_first(SolvedMap& map) {
+  std::vector<PoseGraphComponent>& components = map.solution.components;
+  const auto smaller = [](const PoseGraphComponent& a, const PoseGraphComponent& b) {
+    return a.nodes.size() < b.nodes.size();
+  };
+  const auto largest = std::max_element(components.begin(), components.end(), smaller);
+  std::rotate(components.begin(), largest, largest + 1);
+  map.graph.anchors = {components.front().nodes.front()};
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    components[c].anchored = c == 0;
+    for (const std::size_t node : components[c].nodes) {
+      map.solution.component_of[node] = c;
+    }
+  }
+}
+
 /// What the solution has moved a scan by: between the corrections of the keyframes before and behind it.
 Pose correction(const SolvedMap& map, const std::vector<ScanRecord>& scans, std::size_t before,
                 const ScanRecord& scan) {
@@ -99,7 +120,9 @@ void fill_gaps(SolvedMap& map, const std::vector<ScanRecord>& scans) {
     if (scans[i].state != ScanState::kDamaged) {
       continue;
     }
-    const auto good = [&](std::size_t k) { return scans[k].state != ScanState::kDamaged; };
+    const auto good = [&](std::size_t k) {
+      return scans[k].state != ScanState::kDamaged && scans[k].piece == scans[i].piece;
+    };
     std::size_t before = i;
     std::size_t behind = i;
     while (before > 0 && !good(before)) {
@@ -153,7 +176,8 @@ void DrivenPath::add(const ScanRecord& scan, std::vector<Keyframe>& keyframes) {
   piece_ = scan.piece;
   last_ = scan.T_piece_lidar;
   if (scan.keyframe) {
-    keyframes.push_back({*scan.keyframe, scan.scan, scan.piece, scan.T_piece_lidar, scan.covariance, path_m_});
+    keyframes.push_back({*scan.keyframe, scan.scan, scan.piece, scan.T_piece_lidar, scan.covariance, path_m_,
+                         scan.state == ScanState::kRecovered});
   }
 }
 
@@ -166,18 +190,26 @@ std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans) {
   return keyframes;
 }
 
-SolvedMap solve_map(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops,
-                    const SlamOptions& options, const PoseGraphOptions& graph_options,
-                    const std::vector<LoopDecision>& decisions) {
+SolvedMap solve_keyframes(const std::vector<Keyframe>& keyframes, const std::vector<LoopRecord>& loops,
+                          const SlamOptions& options, const PoseGraphOptions& graph_options,
+                          const std::vector<LoopDecision>& decisions) {
   SolvedMap map;
-  map.keyframes = keyframes_of(scans);
+  map.keyframes = keyframes;
   add_odometry(map, options);
   add_loops(map, loops, options, decisions);
   map.graph.anchors = {0};
   map.solution = optimize(map.graph, graph_options);
+  put_largest_first(map);
   map.T_map_keyframe = map.solution.T_map_node;
   map.components = map.solution.components.size();
   judge_loops(map);
+  return map;
+}
+
+SolvedMap solve_map(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops,
+                    const SlamOptions& options, const PoseGraphOptions& graph_options,
+                    const std::vector<LoopDecision>& decisions) {
+  SolvedMap map = solve_keyframes(keyframes_of(scans), loops, options, graph_options, decisions);
   place_scans(map, scans);
   return map;
 }

@@ -6,6 +6,7 @@
 #include "loopmark/core/files.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/pose_graph/g2o.hpp"
+#include "loopmark/slam/map_components.hpp"
 #include "loopmark/slam/products.hpp"
 
 namespace loopmark {
@@ -92,16 +93,60 @@ std::string loops_csv(const std::vector<LoopRecord>& loops, const SolvedMap& map
   return text;
 }
 
-}  // namespace
+std::string components_csv(const std::vector<MapComponent>& components) {
+  std::string text =
+      "name,anchored,scans,first_scan,last_scan,begin_s,end_s,pieces,keyframes,path_m,candidates_to_others,best_p,"
+      "best\n";
+  for (const MapComponent& c : components) {
+    char stamps[96];
+    std::snprintf(stamps, sizeof stamps, "%.6f,%.6f", c.begin_s, c.end_s);
+    text += c.name + "," + (c.anchored ? "1" : "0") + "," + std::to_string(c.scans) + "," +
+            std::to_string(c.first_scan) + "," + std::to_string(c.last_scan) + "," + stamps + "," +
+            std::to_string(c.pieces) + "," + std::to_string(c.keyframes) + "," + number(c.path_m) + "," +
+            std::to_string(c.candidates) + "," + number(c.best_p) + "," + quoted(c.best) + "\n";
+  }
+  return text;
+}
 
-void write_trajectory_products(const RunFolder& folder, const std::vector<ScanRecord>& scans,
-                               const std::vector<LoopRecord>& loops, const SolvedMap& map) {
+/// Says in front of a trajectory which of its poses have no place in the map.
+std::string apart_comment(const std::vector<MapComponent>& components) {
+  std::string text;
+  for (std::size_t c = 1; c < components.size(); ++c) {
+    text += "# " + components[c].name + ": " + std::to_string(components[c].scans) + " scans, " +
+            std::to_string(components[c].first_scan) + " to " + std::to_string(components[c].last_scan) +
+            ", have no place in the map; their poses are in a frame of their own\n";
+  }
+  return text;
+}
+
+void write_trajectories(const RunFolder& folder, const std::vector<ScanRecord>& scans, const SolvedMap& map,
+                        const std::vector<MapComponent>& components) {
   std::vector<double> stamps_s;
   for (const ScanRecord& scan : scans) {
     stamps_s.push_back(scan.stamp_s);
   }
-  write_tum(folder / "trajectory.tum", stamps_s, map.T_map_scan);
+  write_file_atomically(folder / "trajectory.tum", apart_comment(components) + tum_text(stamps_s, map.T_map_scan));
   write_kitti(folder / "trajectory.kitti", map.T_map_scan);
+  for (std::size_t c = 1; c < components.size(); ++c) {
+    std::vector<double> stamps;
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (map.component[i] == c) {
+        stamps.push_back(scans[i].stamp_s);
+        poses.push_back(map.T_map_scan[i]);
+      }
+    }
+    write_tum(folder / (components[c].name + ".tum"), stamps, poses);
+  }
+}
+
+}  // namespace
+
+void write_trajectory_products(const RunFolder& folder, const std::vector<ScanRecord>& scans,
+                               const std::vector<LoopRecord>& loops, const SolvedMap& map) {
+  const std::vector<MapComponent> components = map_components(scans, loops, map);
+  write_trajectories(folder, scans, map, components);
+  write_file_atomically(folder / "components.csv", components_csv(components));
   write_file_atomically(folder / "covariances.csv", covariances_csv(scans, map));
   write_file_atomically(folder / "loops.csv", loops_csv(loops, map));
   PoseGraph graph = map.graph;

@@ -38,7 +38,8 @@ class Mapper {
   /// A scan that cannot be used. Throws InputError when there have been more than max_bad_scans.
   void add_damaged(std::size_t scan, double stamp_s, const std::string& problem);
 
-  /// Tries every place that keyframes may have seen before; `progress` is called with (done, total).
+  /// Tries every place that keyframes may have seen before, then every piece that nothing joins yet against all others;
+  /// `progress` is called with (done, total).
   void close_loops(const std::function<void(std::size_t, std::size_t)>& progress = {});
 
   /// The poses as known now. At least one scan has been added.
@@ -60,8 +61,8 @@ class Mapper {
   bool deserves_keyframe(const TrackedScan& tracked, ScanState state) const;
   void keep_keyframe(const Scan& scan, ScanRecord& record);
   const ScanRecord& keep(ScanRecord record);
-  std::vector<std::vector<LoopRecord>> candidates() const;
-  LoopRecord registered(LoopRecord candidate) const;
+  bool after_gap(double stamp_s) const;
+  void start_piece(const Scan& scan, const std::string& problem, Placed& placed);
 
   const RunFolder& folder_;
   MapperOptions options_;

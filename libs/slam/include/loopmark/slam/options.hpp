@@ -20,6 +20,9 @@ struct SlamOptions {
   double max_loop_m = 25.0;         ///< places seen from farther apart add error, not knowledge, within a piece
   double min_loop_p = 0.9;          ///< a loop below this P(correct) is kept as evidence but not used
   std::size_t recovery_keyframes = 3;  ///< latest keyframes that a lost scan is registered to
+  double max_gap_s = 2.0;              ///< a longer gap between scans (and ten times the usual one) starts a new piece
+  std::size_t piece_candidates = 8;    ///< more pairs of places tried for each part of the map that nothing joins
+  std::size_t submap_keyframes = 5;    ///< keyframes joined into a submap for these
   double drift_m_per_m = 0.003;        ///< odometry's drift as believed by the pose graph: metres a metre
   double drift_deg_per_m = 0.01;       ///< and degrees a metre
   double floor_m = 0.01;               ///< no odometry between keyframes is believed better than this
@@ -45,6 +48,11 @@ void describe(Visitor& v, SlamOptions& o) {
           "places seen from farther apart add error, not knowledge, within a piece, metres");
   v.field("min_loop_p", o.min_loop_p, "a loop below this P(correct) is kept as evidence but not used");
   v.field("recovery_keyframes", o.recovery_keyframes, "latest keyframes that a lost scan is registered to");
+  v.field("max_gap_s", o.max_gap_s,
+          "a longer gap between scans, if it is also ten times the usual one, starts a new piece, seconds");
+  v.field("piece_candidates", o.piece_candidates,
+          "pairs of places tried as submaps for each part of the map that nothing joins, in each round");
+  v.field("submap_keyframes", o.submap_keyframes, "keyframes joined into a submap for these");
   v.field("drift_m_per_m", o.drift_m_per_m, "odometry's drift as believed by the pose graph, metres a metre");
   v.field("drift_deg_per_m", o.drift_deg_per_m, "and degrees a metre");
   v.field("floor_m", o.floor_m, "no odometry between keyframes is believed better than this, metres");

@@ -13,7 +13,9 @@
 
 namespace loopmark {
 
-/// trajectory.tum, trajectory.kitti, covariances.csv, loops.csv, pose_graph.g2o.
+/// trajectory.tum, trajectory.kitti, covariances.csv, loops.csv, components.csv, pose_graph.g2o. The trajectories hold
+/// a pose for every scan; where the map has several components, trajectory.tum says so in a comment, and each but the
+/// first has a trajectory of its own (component_1.tum, ...), in a frame of its own.
 void write_trajectory_products(const RunFolder& folder, const std::vector<ScanRecord>& scans,
                                const std::vector<LoopRecord>& loops, const SolvedMap& map);
 

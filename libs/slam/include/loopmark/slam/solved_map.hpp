@@ -22,6 +22,7 @@ struct Keyframe {
   Pose T_piece_lidar = Pose::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< of xi in T_piece_lidar * exp(xi), against the local map
   double path_m = 0.0;                     ///< driven since the start of the log
+  bool recovered = false;                  ///< placed by registration to keyframes before, not by odometry
 };
 
 /// Follows the scans of a log: the distance driven, and the keyframes among them.
@@ -54,12 +55,17 @@ struct SolvedMap {
   std::vector<Pose> T_map_keyframe;
   std::vector<Pose> T_map_scan;        ///< one for every scan of the log, in order
   std::vector<Matrix6d> covariance;    ///< of xi in exp(xi) * T_map_scan, for every scan
-  std::vector<std::size_t> component;  ///< of every scan; 0 is the one that holds the first scan
+  std::vector<std::size_t> component;  ///< of every scan; 0 is the one with most keyframes: the map
   std::size_t components = 0;
   std::vector<LoopVerdict> loops;  ///< one for each loop record
   PoseGraph graph;
   PoseGraphSolution solution;
 };
+
+/// The poses of the keyframes alone: what solve_map gives, but for T_map_scan, covariance and component.
+SolvedMap solve_keyframes(const std::vector<Keyframe>& keyframes, const std::vector<LoopRecord>& loops,
+                          const SlamOptions& options, const PoseGraphOptions& graph_options,
+                          const std::vector<LoopDecision>& decisions = {});
 
 /// Odometry edges within the pieces, the loops that registration is sure of, and the robust solution. Loops that
 /// `decisions` veto are left out, those that they force are trusted.

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_job.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "loopmark/config/options_io.hpp"
+#include "loopmark/core/files.hpp"
+
+namespace loopmark::app {
+namespace {
+
+std::filesystem::path job_file(const RunFolder& folder) { return folder / "records/job.json"; }
+
+void write_job(const RunFolder& folder, const MapJob& job, const AppOptions& options) {
+  const nlohmann::ordered_json json = {{"log", job.log.string()}, {"truth", job.truth.string()}};
+  write_file_atomically(folder / "config.yaml", options_as_yaml(options));
+  write_file_atomically(job_file(folder), json.dump(1) + "\n");
+}
+
+}  // namespace
+
+MapOutcome start_map(const std::filesystem::path& log, const std::filesystem::path& truth,
+                     const std::filesystem::path& run, const AppOptions& options) {
+  if (!std::filesystem::exists(log)) {
+    throw InputError(log.string(), "", "there is no such log", "give a folder of scans or a rawlog");
+  }
+  const MapJob job{std::filesystem::absolute(log), truth.empty() ? truth : std::filesystem::absolute(truth)};
+  const RunFolder folder = RunFolder::create(run);
+  write_job(folder, job, options);
+  return run_map(folder, job, options);
+}
+
+MapOutcome resume_map(const std::filesystem::path& run) {
+  const RunFolder folder = RunFolder::resume(run);
+  const AppOptions options = config::load<AppOptions>(folder / "config.yaml", {});
+  const nlohmann::json json = nlohmann::json::parse(read_file(job_file(folder)));
+  return run_map(folder, {json.at("log").get<std::string>(), json.at("truth").get<std::string>()}, options);
+}
+
+}  // namespace loopmark::app
