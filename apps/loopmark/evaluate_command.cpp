@@ -46,7 +46,8 @@ void add_run_options(CLI::App& command, EvaluateArguments& a) {
       .add_option(
           "--algorithms", a.algorithms,
           "what competes, separated by commas: engine, the paper's variants by name (ransac_mutual, ransac_gpf, "
-          "gnc_clique, sc2, ...), or groups of them: paper, ransac-ablation, gpf-ablation, all")
+          "gnc_clique, sc2, ...), custom (the options of section paper), or groups: paper, ransac-ablation, "
+          "gpf-ablation, all")
       ->delimiter(',');
   command.add_option("--motions", a.motions, "motions somebody found, 19 columns: FILE or NAME=FILE; may be repeated");
   command.add_option("--command", a.commands, "a program: COMMAND or NAME=COMMAND; may be repeated");
