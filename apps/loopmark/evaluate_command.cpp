@@ -65,7 +65,7 @@ void add_run_options(CLI::App& command, EvaluateArguments& a) {
   command.add_option("--pairs-at-once", a.pairs_at_once,
                      "pairs worked on at the same time; 0: one for each thread; 1 for undisturbed times");
   command.add_option("--shard", a.shard, "k/N: only part k of N of the pairs");
-  command.add_option("--pictures", a.pictures, "failed pairs of each algorithm that report.html draws (24)");
+  command.add_option("--pictures", a.pictures, "failed pairs that report.html draws at most (500)");
   command.add_flag("--no-check", a.no_check, "do not compare the overlaps of a few pairs with the scans first");
 }
 
