@@ -13,6 +13,7 @@
 # SET_FOLDER has pairs.txt, sessions.txt and, where there are any, negatives.txt, pairs_perturbed.txt, perturb.txt; LOGS has
 # the logs that sessions.txt names. PCL takes minutes for a few pairs: it gets every PCL_EVERY-th one (10), in a table of its
 # own beside the others on the same pairs. MATCHES_EVERY: of the pairs of part 2 (5). What was stopped goes on where it was.
+# LOOPMARK_BENCH_SCANS=a.pcd,b.pcd names two scans for part 3, which else takes two made-up yards.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "$0")/../scripts/lib.sh"
@@ -41,10 +42,9 @@ echo "# Estimators on the same matches, every $matches_every-th pair"
 "$programs/same_matches" "$set_folder/pairs.txt" "$logs" "$set_folder/sessions.txt" "$matches_every" ground
 
 echo "# Descriptors and matching: processor time of the peer over ours, one thread"
-"$programs/bench_features" --benchmark_filter='/1/process_time' --benchmark_min_time=2 --benchmark_format=csv \
-  2>/dev/null >"$out/features.csv"
-awk -F, '/process_time/ { sub(/^"/, "", $1); sub(/\/.*/, "", $1); cpu[$1] = $4 }
+"$programs/bench_features" --benchmark_filter='/1/process_time' --benchmark_min_time=2 2>/dev/null >"$out/features.txt"
+awk '/process_time/ { sub(/\/.*/, "", $1); cpu[$1] = $4 }
   END { printf "FPFH: %.0f ms against %.0f ms of PCL: %.1f times\n", cpu["ours_fpfh"], cpu["pcl_fpfh"],
           cpu["pcl_fpfh"] / cpu["ours_fpfh"];
         printf "two nearest, both ways: %.0f ms against %.0f ms of FLANN: %.1f times\n", cpu["ours_nearest_two"],
-          cpu["flann_nearest_two"], cpu["flann_nearest_two"] / cpu["ours_nearest_two"] }' "$out/features.csv"
+          cpu["flann_nearest_two"], cpu["flann_nearest_two"] / cpu["ours_nearest_two"] }' "$out/features.txt"
