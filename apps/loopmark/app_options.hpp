@@ -10,6 +10,7 @@
 #include "loopmark/odometry/options.hpp"
 #include "loopmark/pose_graph/pose_graph_options.hpp"
 #include "loopmark/registration/engine_options.hpp"
+#include "loopmark/registration/paper_options.hpp"
 #include "loopmark/simulation/options.hpp"
 #include "loopmark/slam/options.hpp"
 #include "loopmark/slam/relocalization_options.hpp"
@@ -22,6 +23,7 @@ struct AppOptions {
   DatasetOptions dataset;
   OdometryOptions odometry;
   EngineOptions registration;
+  PaperOptions paper;
   SlamOptions slam;
   PoseGraphOptions pose_graph;
   OccupancyOptions occupancy;
@@ -36,6 +38,7 @@ void describe(Visitor& v, AppOptions& o) {
   v.section("dataset", o.dataset, "data sets of many drives");
   v.section("odometry", o.odometry, "alignment of each scan to a local map");
   v.section("registration", o.registration, "global registration of two scans");
+  v.section("paper", o.paper, "the paper's pipeline, step by step, for the algorithm called custom");
   v.section("slam", o.slam, "keyframes, loops and the map");
   v.section("pose_graph", o.pose_graph, "robust solution of the pose graph");
   v.section("occupancy", o.occupancy, "OctoMap");

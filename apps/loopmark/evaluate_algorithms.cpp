@@ -35,12 +35,12 @@ class Collection {
     }
     for (const std::string& name : all_names()) {
       if (name == "engine" || arguments_.features.empty()) {
-        add(by_name(name));
+        add(by_name(name, {}));
         continue;
       }
       for (const std::string& text : arguments_.features) {
         const auto [domain, folder] = named(text, std::filesystem::path(text).filename().string());
-        add(make_named_algorithm(name, domain, folder));
+        add(by_name(name, {domain, folder}));
       }
     }
     for (const std::string& text : arguments_.commands) {
@@ -57,11 +57,14 @@ class Collection {
     return nothing ? std::vector<std::string>{"engine"} : arguments_.algorithms;
   }
 
-  std::unique_ptr<RegistrationAlgorithm> by_name(const std::string& name) const {
+  std::unique_ptr<RegistrationAlgorithm> by_name(const std::string& name, const DescriptorSource& descriptors) const {
     if (name == "engine") {
       return make_engine_algorithm(options_.registration, config::dump(options_.registration));
     }
-    return make_named_algorithm(name);
+    if (name.substr(0, name.find('#')) == "custom") {
+      return make_configured_algorithm(name, options_.paper, config::dump(options_.paper), descriptors);
+    }
+    return make_named_algorithm(name, descriptors);
   }
 
   /// The names that one word of --algorithms stands for.

@@ -46,7 +46,8 @@ void add_run_options(CLI::App& command, EvaluateArguments& a) {
       .add_option(
           "--algorithms", a.algorithms,
           "what competes, separated by commas: engine, the paper's variants by name (ransac_mutual, ransac_gpf, "
-          "gnc_clique, sc2, ...), or groups of them: paper, ransac-ablation, gpf-ablation, all")
+          "gnc_clique, sc2, ...), custom (the options of section paper), or groups: paper, ransac-ablation, "
+          "gpf-ablation, all")
       ->delimiter(',');
   command.add_option("--motions", a.motions, "motions somebody found, 19 columns: FILE or NAME=FILE; may be repeated");
   command.add_option("--command", a.commands, "a program: COMMAND or NAME=COMMAND; may be repeated");
@@ -64,7 +65,7 @@ void add_run_options(CLI::App& command, EvaluateArguments& a) {
   command.add_option("--pairs-at-once", a.pairs_at_once,
                      "pairs worked on at the same time; 0: one for each thread; 1 for undisturbed times");
   command.add_option("--shard", a.shard, "k/N: only part k of N of the pairs");
-  command.add_option("--pictures", a.pictures, "failed pairs of each algorithm that report.html draws (24)");
+  command.add_option("--pictures", a.pictures, "failed pairs that report.html draws at most (500)");
   command.add_flag("--no-check", a.no_check, "do not compare the overlaps of a few pairs with the scans first");
 }
 

@@ -10,17 +10,31 @@ namespace loopmark::app {
 using report::Plot;
 using report::Style;
 
+namespace {
+
+/// The middle of a bin, for the axis; the last bin is open.
+double middle_of(const RecallBin& bin) { return 0.5 * (bin.low + std::min(bin.high, 2.0 * bin.low + 10.0)); }
+
+/// How far apart along x the intervals of neighbouring algorithms stand, so that none hides another.
+double step_beside(const std::vector<RecallBin>& bins) {
+  constexpr double kShareOfAxis = 0.012;
+  return bins.empty() ? 0.0 : kShareOfAxis * (middle_of(bins.back()) - middle_of(bins.front()));
+}
+
+}  // namespace
+
 report::Plot recall_plot(const std::vector<AlgorithmSummary>& summaries, const std::string& title,
                          const std::string& quantity, std::vector<RecallBin> AlgorithmSummary::*bins) {
   Plot plot(title, quantity, "recall [%]");
-  plot.y_range(0.0, 100.0).size(520, 340);
+  plot.y_range(-3.0, 103.0).size(520, 340);
   for (std::size_t a = 0; a < summaries.size(); ++a) {
+    const double beside = step_beside(summaries[a].*bins) *
+                          (static_cast<double>(a) - 0.5 * (static_cast<double>(summaries.size()) - 1.0));
     std::vector<double> x, y, low, high;
     for (const RecallBin& bin : summaries[a].*bins) {
       if (bin.pairs > 0) {
         const Interval interval = wilson_interval(bin.successes, bin.pairs);
-        const double right = std::min(bin.high, 2.0 * bin.low + 10.0);  // the last bin is open
-        x.push_back(0.5 * (bin.low + right));
+        x.push_back(middle_of(bin) + beside);
         y.push_back(100.0 * bin.recall());
         low.push_back(100.0 * interval.low);
         high.push_back(100.0 * interval.high);
@@ -28,16 +42,17 @@ report::Plot recall_plot(const std::vector<AlgorithmSummary>& summaries, const s
     }
     Style style;
     style.colour = report::palette(a);
-    plot.line(summaries[a].name, x, y, style).intervals("", x, low, high, style);
+    plot.line(summaries[a].name, x, y, style).points("", x, y, style).intervals("", x, low, high, style);
   }
   return plot;
 }
 
-report::Plot error_plot(const StoredResult& result, bool rotation) {
+report::Plot error_plot(const StoredResult& result, const std::vector<AlgorithmSummary>& summaries, bool rotation) {
   Plot plot(rotation ? "Rotation error" : "Translation error", rotation ? "RE below [deg]" : "TE below [m]",
             "pairs [%]");
   plot.y_range(0.0, 100.0).x_range(0.0, rotation ? 10.0 : 2.0).size(520, 340);
-  for (const std::string& name : result.experiment.algorithms) {
+  for (const AlgorithmSummary& summary : summaries) {
+    const std::string& name = summary.name;
     std::vector<double> errors;
     for (const Outcome& outcome : result.outcomes) {
       if (outcome.algorithm == name && !outcome.negative) {
@@ -76,7 +91,7 @@ report::Plot time_plot(const std::vector<AlgorithmSummary>& summaries) {
 
 report::Plot precision_recall_plot(const std::vector<AlgorithmSummary>& summaries) {
   Plot plot("Precision and recall of the answers", "recall [%]", "precision [%]");
-  plot.x_range(0.0, 100.0).size(520, 340);
+  plot.x_range(0.0, 100.0).y_range(0.0, 103.0).size(520, 340);
   for (const AlgorithmSummary& summary : summaries) {
     std::vector<double> x, y;
     for (const PrecisionRecallPoint& point : summary.precision_recall) {

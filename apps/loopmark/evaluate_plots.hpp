@@ -14,7 +14,7 @@ namespace loopmark::app {
 report::Plot recall_plot(const std::vector<AlgorithmSummary>& summaries, const std::string& title,
                          const std::string& quantity, std::vector<RecallBin> AlgorithmSummary::*bins);
 /// Share of pairs whose translation (metres) or rotation (degrees) error is below a value.
-report::Plot error_plot(const StoredResult& result, bool rotation);
+report::Plot error_plot(const StoredResult& result, const std::vector<AlgorithmSummary>& summaries, bool rotation);
 /// Recall against median seconds of the paper's accounting.
 report::Plot time_plot(const std::vector<AlgorithmSummary>& summaries);
 report::Plot precision_recall_plot(const std::vector<AlgorithmSummary>& summaries);

@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstdio>
+#include <numeric>
 
+#include "evaluate_failures.hpp"
 #include "evaluate_plots.hpp"
-#include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/files.hpp"
-#include "loopmark/core/parallel.hpp"
 #include "loopmark/evaluation/result_tables.hpp"
 #include "loopmark/report/page.hpp"
 
@@ -25,89 +23,34 @@ report::Cell cell_of(const std::string& text) {
   return number ? report::Cell(text, value) : report::Cell(text);
 }
 
-std::vector<const Outcome*> failures_of(const StoredResult& result, const std::string& algorithm) {
-  std::vector<const Outcome*> failures;
-  for (const Outcome& outcome : result.outcomes) {
-    const bool accepted = outcome.negative && outcome.answer.status == AnswerStatus::kAnswered;
-    if (outcome.algorithm == algorithm && (accepted || (!outcome.negative && !outcome.success))) {
-      failures.push_back(&outcome);
-    }
+/// The algorithms whose curves are drawn: those of highest recall, in the order of the result.
+std::vector<AlgorithmSummary> drawn_ones(const std::vector<AlgorithmSummary>& summaries) {
+  constexpr std::size_t kMost = 8;
+  std::vector<std::size_t> order(summaries.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return summaries[a].recall() > summaries[b].recall(); });
+  order.resize(std::min(kMost, order.size()));
+  std::sort(order.begin(), order.end());
+  std::vector<AlgorithmSummary> drawn;
+  for (const std::size_t i : order) {
+    drawn.push_back(summaries[i]);
   }
-  return failures;
+  return drawn;
 }
 
-report::Table failure_list(const StoredResult& result, const std::vector<const Outcome*>& failures) {
-  report::Table table(
-      {"Pair", "Frames", "Status", "TE (m)", "RE (deg)", "P(correct)", "Distance (m)", "Overlap", "Note"},
-      "Failed pairs");
-  for (const Outcome* outcome : failures) {
-    const bool negative = outcome->negative;
-    const RegistrationPair* pair = negative ? nullptr : &result.set.pairs[outcome->pair];
-    table.row({report::count_cell(outcome->pair), to_string(result.set.key(outcome->pair)),
-               negative ? "false accept" : to_string(outcome->answer.status),
-               report::number_cell(outcome->error.translation_m, 2),
-               report::number_cell(outcome->error.rotation_deg, 2), report::number_cell(outcome->answer.p_correct, 3),
-               pair == nullptr ? report::Cell("-") : report::number_cell(pair->motion.head<3>().norm(), 1),
-               pair == nullptr ? report::Cell("-") : report::number_cell(pair->overlap_symmetric, 2),
-               outcome->answer.note});
-  }
-  return table;
-}
-
-/// Loads and draws one failed pair: what was answered beside what is true.
-report::Image picture_of(const Outcome& outcome, const StoredResult& result, const ScanLoader& load,
-                         const std::vector<Pose>& perturbations) {
-  constexpr double kVoxelM = 0.4;
-  constexpr std::size_t kWidth = 900;
-  const PairKey& key = result.set.key(outcome.pair);
-  PointCloud source = load(key.session, key.source);
-  if (outcome.pair < perturbations.size()) {
-    source = transformed(source, perturbations[outcome.pair]);
-  }
-  const auto from = voxel_downsampled(source, kVoxelM).points;
-  const auto to = voxel_downsampled(load(key.target_session, key.target), kVoxelM).points;
-  if (outcome.negative) {
-    return report::registration_picture(from, to, outcome.answer.T_target_source, kWidth);
-  }
-  return report::failure_picture(from, to, outcome.answer.T_target_source,
-                                 result.set.pairs[outcome.pair].T_target_source, kWidth);
-}
-
-std::string caption_of(const Outcome& outcome, const StoredResult& result) {
-  char text[160];
-  std::snprintf(text, sizeof text, "pair %zu: TE %.2f m, RE %.2f deg, P(correct) %.3f", outcome.pair,
-                outcome.error.translation_m, outcome.error.rotation_deg, outcome.answer.p_correct);
-  return std::string(text) + " (" + to_string(result.set.key(outcome.pair)) + ")";
-}
-
-void add_failures(report::Page& page, const StoredResult& result, const ScanLoader& load,
-                  const std::vector<Pose>& perturbations, std::size_t pictures) {
-  page.heading("Failures");
-  for (const std::string& algorithm : result.experiment.algorithms) {
-    const std::vector<const Outcome*> failures = failures_of(result, algorithm);
-    report::Page body("");
-    body.table(failure_list(result, failures));
-    const std::size_t drawn = load ? std::min(pictures, failures.size()) : 0;
-    std::vector<report::Image> images(drawn);
-    parallel_for(drawn, [&](std::size_t i) { images[i] = picture_of(*failures[i], result, load, perturbations); });
-    for (std::size_t i = 0; i < drawn; ++i) {
-      body.picture(images[i], caption_of(*failures[i], result));
-    }
-    if (drawn < failures.size()) {
-      body.paragraph(std::to_string(failures.size() - drawn) + " more without a picture" +
-                     (load ? " (--pictures N draws more)." : " (no scans were given: --data)."));
-    }
-    page.details(algorithm + ": " + std::to_string(failures.size()) + " failed pairs", body);
-  }
-}
-
-void add_plots(report::Page& page, const StoredResult& result, const std::vector<AlgorithmSummary>& summaries) {
+void add_plots(report::Page& page, const StoredResult& result, const std::vector<AlgorithmSummary>& all) {
+  const std::vector<AlgorithmSummary> summaries = drawn_ones(all);
   page.heading("Recall");
+  if (summaries.size() < all.size()) {
+    page.paragraph("Drawn are the " + std::to_string(summaries.size()) +
+                   " algorithms of highest recall; the tables have all " + std::to_string(all.size()) + ".");
+  }
   page.plots({recall_plot(summaries, "Recall by overlap", "symmetric overlap", &AlgorithmSummary::by_overlap),
               recall_plot(summaries, "Recall by distance", "distance [m]", &AlgorithmSummary::by_distance)});
   page.plots({recall_plot(summaries, "Recall by yaw", "|yaw| [deg]", &AlgorithmSummary::by_yaw), time_plot(summaries)});
   page.heading("Errors");
-  page.plots({error_plot(result, false), error_plot(result, true)});
+  page.plots({error_plot(result, summaries, false), error_plot(result, summaries, true)});
   if (std::any_of(summaries.begin(), summaries.end(), [](const auto& s) { return s.has_scores; })) {
     page.heading("Certainty");
     page.plots({precision_recall_plot(summaries), reliability_plot(summaries)});

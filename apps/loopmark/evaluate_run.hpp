@@ -30,7 +30,7 @@ struct EvaluateArguments {
   std::size_t pairs_at_once = 0;
   std::string shard = "1/1";
   bool no_check = false;
-  std::size_t pictures = 24;
+  std::size_t pictures = 500;
 };
 
 /// Runs the experiment, writes the result folder and prints the overview.

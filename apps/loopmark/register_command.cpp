@@ -87,7 +87,7 @@ Action set_up_register(CLI::App& command, const Globals& globals) {
   command.add_option("source", a->source, "scan that is moved: .bin, .pcd or .ply")->required();
   command.add_option("target", a->target, "scan in whose frame the answer stands")->required();
   command.add_option("--algorithm", a->algorithm,
-                     "engine, or a variant of the paper by name (ransac_gpf, gnc_clique, ...)");
+                     "engine, a variant of the paper by name (ransac_gpf, gnc_clique, ...), or custom (section paper)");
   command.add_option("--picture", a->picture, "writes a PNG: before and after, from above and from the side");
   command.add_option("--record", a->record, "writes a folder that loopmark replay opens again");
   command.add_flag("--json", a->json, "prints JSON");

@@ -51,8 +51,8 @@ Json mode_json(const RegistrationMode& mode) {
 }
 
 /// The paper's variants answer without a probability: they never abstain unless they found nothing.
-RegistrationResult run_named(const RegisterRun& run) {
-  const PaperResult paper = register_like_the_paper(run.source, run.target, named_algorithm(run.algorithm));
+RegistrationResult run_paper(const RegisterRun& run, const PaperOptions& options) {
+  const PaperResult paper = register_like_the_paper(run.source, run.target, options);
   RegistrationResult result;
   result.T_target_source = paper.T_target_source;
   result.answered = paper.found;
@@ -85,7 +85,11 @@ std::string matrix_text(const Pose& pose) {
 }  // namespace
 
 void run_registration(RegisterRun& run, const AppOptions& options) {
-  run.result = run.algorithm == "engine" ? run_engine(run, options.registration) : run_named(run);
+  if (run.algorithm == "engine") {
+    run.result = run_engine(run, options.registration);
+  } else {
+    run.result = run_paper(run, run.algorithm == "custom" ? options.paper : named_algorithm(run.algorithm));
+  }
 }
 
 std::string registration_text(const RegisterRun& run) {

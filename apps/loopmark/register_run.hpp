@@ -17,7 +17,7 @@ struct RegisterRun {
   PointCloud target;
   std::string source_name;
   std::string target_name;
-  std::string algorithm = "engine";  ///< or one of named_algorithms()
+  std::string algorithm = "engine";  ///< or custom (AppOptions::paper), or one of named_algorithms()
   RegistrationResult result;
 };
 

@@ -2,11 +2,12 @@
 # SPDX-FileCopyrightText: loopmark contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Tests the job array on one machine: starts a Slurm of its own (Debian: slurm-wlm, munge), runs a set in shards, kills
-# one task half-way, sends it again, and compares the merged result with that of one process, byte for byte.
+# Tests the job array on one machine: starts a Slurm of its own (Debian: slurm-wlm, munge), runs a made-up set of 60 pairs
+# with a competitor that takes its time in shards, kills one task while it works, sends the array again, and compares the
+# merged result with that of one process, byte for byte.
 # Exit code 77: skipped, because Slurm is not installed, or cannot be started here (it needs root).
 #
-#   examples/slurm/test-on-one-machine.sh LOOPMARK [SET MOTIONS]     (without a set: a made-up one of 600 pairs)
+#   examples/slurm/test-on-one-machine.sh LOOPMARK
 set -euo pipefail
 
 for tool in sbatch slurmctld slurmd munged squeue; do
@@ -37,12 +38,28 @@ cleanup() {
 }
 trap cleanup EXIT
 
-# A set without rotations, and motions of which every fifth is 2 m off.
+# A log of scans of 64 equal points, a set without rotations on them, and a competitor that answers after a quarter of a second,
+# every fifth time 2 m off.
 made_up_set() {
-  awk 'BEGIN { print "header"; for (i = 0; i < 600; ++i) { x = i % 41; y = i % 7;
+  mkdir -p "$work/data/log/velodyne"
+  for i in $(seq -f %06g 0 60); do
+    for _ in $(seq 64); do
+      printf '\0\0\200\77\0\0\200\77\0\0\0\0\0\0\0\0'
+    done >"$work/data/log/velodyne/$i.bin"
+  done
+  printf 'index name\n0 log\n' >"$work/sessions.txt"
+  awk 'BEGIN { print "header"; for (i = 0; i < 60; ++i) { x = i % 41; y = i % 7;
     print 0, i, i + 1, 1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, 0, 0, 0, 0, 1, x, y, 0, 0, 0, 0, 0.5, 0.4 } }' >"$work/set.txt"
-  awk 'BEGIN { print "header"; for (i = 0; i < 600; ++i) { x = i % 41 + (i % 5 == 0 ? 2 : 0.1); y = i % 7;
-    print 0, i, i + 1, 1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, 0, 0, 0, 0, 1 } }' >"$work/motions.txt"
+  cat >"$work/slow.sh" <<'SLOW'
+read -r greeting && echo ready slow
+while read -r word source target; do
+  [ "$word" = quit ] && exit 0
+  sleep 0.25
+  index=${source##*/} && index=${index%%-*}
+  x=$((index % 41)) && [ $((index % 5)) = 0 ] && x=$((x + 2))
+  echo "motion 1 0 0 $x 0 1 0 $((index % 7)) 0 0 1 0 0 0 0 1 0.5 0.25"
+done
+SLOW
 }
 
 start_munge() {
@@ -115,29 +132,41 @@ same_bytes() {
   (cd "$work/many" && sha256sum --quiet -c "$work/one.sums")
 }
 
-if [[ $# -ge 3 ]]; then
-  set_file=$(realpath "$2") motions=$(realpath "$3")
-else
-  made_up_set
-  set_file=$work/set.txt motions=$work/motions.txt
-fi
+records_of() { { wc -l <"$work/many/shards/$1-of-3.records" || echo 0; } 2>/dev/null; }
+
+# Kills the task of the second shard once it has answered some of its 20 pairs.
+lose_second_task() {
+  for _ in $(seq 200); do
+    if [[ $(records_of 2) -ge 4 ]]; then
+      break
+    fi
+    sleep 0.1
+  done
+  scancel --full --signal=KILL "$1_2"
+}
+
+send_array() {
+  LOOPMARK=$loopmark "$here/evaluate-array.sh" 3 "$work/many" "$work/set.txt" "${options[@]}"
+}
+
+made_up_set
+options=(--data "$work/data" --no-check --pairs-at-once 1 --command "slow=sh $work/slow.sh")
 start_munge
 start_slurm
-"$loopmark" evaluate "$set_file" --motions "m=$motions" --quiet -o "$work/one" >/dev/null
+"$loopmark" evaluate "$work/set.txt" "${options[@]}" --quiet -o "$work/one" >/dev/null
 
-LOOPMARK=$loopmark "$here/evaluate-array.sh" 3 "$work/many" "$set_file" --motions "m=$motions"
+lose_second_task "$(send_array | tee /dev/stderr | sed -n 's/^job array \([0-9]*\) .*/\1/p')"
 wait_for_jobs
-
-# A lost job: the second shard's records end in the middle of one.
-records=$work/many/shards/2-of-3.records
-truncate -s $(($(stat -c %s "$records") / 2)) "$records"
-rm -rf "$work/many/results.csv" "$work/many/motions" "$work/many/tables"
-if "$loopmark" evaluate merge "$work/many" 2>"$work/merge.err"; then
-  echo "an incomplete result was merged" && exit 1
+answered=$(($(records_of 2) - 1))  # the first record says what the shard is of
+if [[ $answered -lt 1 || $answered -ge 20 ]]; then
+  echo "the second task was to be lost half-way; it has $answered of 20 answers" && exit 1
 fi
-grep -q "outcomes are missing" "$work/merge.err"
-LOOPMARK=$loopmark "$here/evaluate-array.sh" 3 "$work/many" "$set_file" --motions "m=$motions"
+grep -q "outcomes are missing" "$work/many/logs/merge.log"
+
+send_array
 wait_for_jobs
-"$loopmark" evaluate merge "$work/many" >/dev/null
+if grep -q "error" "$work/many/logs/merge.log"; then
+  cat "$work"/many/logs/*.log && exit 1
+fi
 same_bytes
-echo "slurm: 3 shards, one lost and repeated: the same bytes as one process"
+echo "slurm: 3 shards, one killed after $answered of 20 pairs and repeated: the same bytes as one process"

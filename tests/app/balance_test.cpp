@@ -147,5 +147,42 @@ TEST_F(EvaluateBadData, FittingDataIsTaken) {
   }
 }
 
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
+    ++count;
+  }
+  return count;
+}
+
+TEST_F(EvaluateBadData, EveryFailedPairHasOnePictureHoweverManyFailedOnIt) {
+  const Drive drive = test::circle_drive(20, 30, 1, 0.5);
+  std::vector<RegistrationPair> pairs;
+  for (int i = 1; i <= 5; ++i) {
+    const auto at = static_cast<std::size_t>(i - 1);
+    pairs.push_back(
+        make_pair({20, i, i + 4, 20}, drive.T_world_cloud[at + 4].inverse() * drive.T_world_cloud[at], 0.5, 0.5));
+  }
+  write_pair_set(folder_ / "set.txt", pairs);
+  const auto competitor = [](const std::string& name, const std::string& x) {
+    return name + "=sh -c 'echo ready; while read w s t; do echo motion 1 0 0 " + x +
+           " 0 1 0 0 0 0 1 0 0 0 0 1 0.5 0.1; done'";
+  };
+  const auto report = [&](const std::string& folder, const std::string& most) {
+    const auto result = run_program({"evaluate", folder_ / "set.txt", "--data", folder_ / "apollo", "--no-check",
+                                     "--command", competitor("here", "0"), "--command", competitor("there", "30"),
+                                     "--command", "none=sh -c 'echo ready; while read w s t; do echo failed so; done'",
+                                     "--pictures", most, "--quiet", "-o", folder_ / folder});
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return read_file(folder_ / folder / "report.html");
+  };
+  const std::string all = report("all", "500");
+  EXPECT_EQ(count_of(all, "<img "), 5U);
+  EXPECT_THAT(all, AllOf(HasSubstr("here: TE"), HasSubstr("there: TE"), HasSubstr("none: failed")));
+  const std::string some = report("some", "2");
+  EXPECT_EQ(count_of(some, "<img "), 2U);
+  EXPECT_THAT(some, HasSubstr("The first 2 of 5 pairs are drawn"));
+}
+
 }  // namespace
 }  // namespace loopmark

@@ -202,6 +202,38 @@ TEST(Selection, IsMoreEvenThanChanceAndFairToDrives) {
   EXPECT_NEAR(share1, share2, 0.05);
 }
 
+/// The mean unevenness of many random choices from the candidates.
+double unevenness_by_chance(const std::vector<RegistrationPair>& candidates, std::size_t count, int axis) {
+  constexpr int kDraws = 50;
+  double mean = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Rng rng(static_cast<std::uint64_t>(draw));
+    auto some = candidates;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::swap(some[i], some[i + rng.below(static_cast<std::uint32_t>(some.size() - i))]);
+    }
+    some.resize(count);
+    mean += motion_unevenness(some, candidates, axis) / kDraws;
+  }
+  return mean;
+}
+
+TEST(Selection, OnDrivesThroughStreetsIsMoreEvenThanChanceAndFair) {
+  const std::vector<Drive> streets = {test::block_drive(3, 320, 0), test::block_drive(8, 160, 0)};
+  const auto candidates = make_candidate_pool(streets, 100, {});
+  SelectionReport report;
+  const auto set = select_balanced(candidates, 80, {}, &report);
+  // Along x there is nothing to even out here: targets are drawn uniformly up to the farthest, which is as far
+  // everywhere.
+  for (const int axis : {1, 5}) {
+    EXPECT_LT(motion_unevenness(set, candidates, axis), 0.9 * unevenness_by_chance(candidates, 80, axis)) << axis;
+  }
+  const auto share = [&](int session) {
+    return static_cast<double>(report.chosen.at(session)) / static_cast<double>(report.candidates.at(session));
+  };
+  EXPECT_NEAR(share(3), share(8), 0.1);
+}
+
 TEST(Selection, OfMoreThanThereIsTakesAll) {
   const auto all = test::random_pairs(30, 2);
   BalanceOptions wide;

@@ -11,6 +11,7 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/files.hpp"
 #include "loopmark/core/interrupt.hpp"
+#include "loopmark/registration/named_algorithms.hpp"
 
 namespace loopmark {
 namespace {
@@ -212,7 +213,8 @@ TEST(ShardText, IsChecked) {
   }
 }
 
-TEST(Refined, ImprovesAnEarlierAnswer) {
+/// Two walls and the ground.
+PointCloud corner() {
   Rng rng(3);
   PointCloud cloud;
   for (int i = 0; i < 4000; ++i) {
@@ -222,6 +224,11 @@ TEST(Refined, ImprovesAnEarlierAnswer) {
                                          : Eigen::Vector3d(12.0, a, b).cast<float>());
     cloud.points.emplace_back(Eigen::Vector3d(a, rng.uniform(-20.0, 8.0), 0.0).cast<float>());
   }
+  return cloud;
+}
+
+TEST(Refined, ImprovesAnEarlierAnswer) {
+  const PointCloud cloud = corner();
   Pose truth = pose_from_yaw(0.3, {2.0, 1.0, 0.0});
   PairScans scans(cloud, transformed(cloud, truth));
   std::map<std::string, Answer> earlier;
@@ -242,6 +249,41 @@ TEST(NamedAlgorithm, RunsThePapersPipelineWithItsOwnSeed) {
   EXPECT_NE(make_named_algorithm("ransac_mutual#1")->settings(), make_named_algorithm("ransac_mutual#2")->settings());
   EXPECT_THROW(make_named_algorithm("nothing"), InputError);
   EXPECT_THROW(make_named_algorithm("ransac_mutual#x"), InputError);
+}
+
+double seconds_of(const Answer& answer, const std::string& stage) {
+  for (const StageTime& time : answer.timings) {
+    if (time.stage == stage) {
+      return time.seconds;
+    }
+  }
+  return -1.0;
+}
+
+TEST(NamedAlgorithm, DescribesAndMatchesAPairOnceForAllThatDescribeAlike) {
+  PairScans scans(corner(), transformed(corner(), pose_from_yaw(0.3, {2.0, 1.0, 0.0})));
+  const PairTask task{0, {}, &scans, nullptr, nullptr};
+  const Answer first = make_named_algorithm("ransac_mutual")->answer(task);
+  const Answer second = make_named_algorithm("gnc_clique")->answer(task);
+  const Answer other = make_named_algorithm("gnc_clique_no_ground")->answer(task);
+  for (const char* stage : {"descriptors", "nearest"}) {
+    EXPECT_GT(seconds_of(first, stage), 0.0) << stage;
+    EXPECT_EQ(seconds_of(first, stage), seconds_of(second, stage)) << "the same measured time: it was taken once";
+    EXPECT_NE(seconds_of(first, stage), seconds_of(other, stage)) << stage;
+  }
+}
+
+TEST(ConfiguredAlgorithm, DoesWhatTheNamedOneOfItsOptionsDoes) {
+  PairScans scans(corner(), transformed(corner(), pose_from_yaw(0.3, {2.0, 1.0, 0.0})));
+  const PairTask task{0, {}, &scans, nullptr, nullptr};
+  const auto custom = make_configured_algorithm("custom", named_algorithm("gnc_core"), "options\n");
+  EXPECT_EQ(custom->name(), "custom");
+  EXPECT_THAT(custom->settings(), testing::HasSubstr("options\n"));
+  EXPECT_EQ(custom->answer(task).T_target_source.matrix(),
+            make_named_algorithm("gnc_core")->answer(task).T_target_source.matrix());
+  PaperOptions bad;
+  bad.voxel_m = 0.0;
+  EXPECT_THROW(make_configured_algorithm("custom", bad, ""), InputError);
 }
 
 }  // namespace

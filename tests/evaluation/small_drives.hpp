@@ -23,23 +23,17 @@ inline std::shared_ptr<const std::vector<Eigen::Vector3f>> small_world() {
   return world;
 }
 
-/// A drive of `frames` scans at 10 Hz, 2 m apart, around a circle of 60 m radius (`laps` = frames * 2 / 377), first
-/// frame number `first`. Scans see 25 m far.
-inline Drive circle_drive(int session, std::size_t frames, int first, double phase, double direction = 1.0) {
+/// The drive along these poses at 10 Hz, first frame number `first`. Scans see 25 m far.
+inline Drive drive_along(int session, const std::string& name, int first, const std::vector<Pose>& poses) {
   static const auto world = small_world();
   Drive drive;
   drive.session = session;
-  drive.name = "circle" + std::to_string(session);
-  for (std::size_t i = 0; i < frames; ++i) {
-    const double angle = phase + direction * 2.0 * static_cast<double>(i) / 60.0;
-    const double wobble = 1.0 + 0.2 * std::sin(3.0 * angle);
-    Pose pose = pose_from_yaw(angle + direction * std::numbers::pi / 2.0,
-                              {60.0 * wobble * std::cos(angle), 60.0 * wobble * std::sin(angle), 2.0});
+  drive.name = name + std::to_string(session);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
     drive.frames.push_back(first + static_cast<int>(i));
     drive.stamps_s.push_back(0.1 * static_cast<double>(i));
-    drive.T_world_cloud.push_back(pose);
   }
-  const std::vector<Pose> poses = drive.T_world_cloud;
+  drive.T_world_cloud = poses;
   drive.load = [poses](std::size_t place) {
     PointCloud cloud;
     const Pose T_cloud_world = poses.at(place).inverse();
@@ -52,6 +46,33 @@ inline Drive circle_drive(int session, std::size_t frames, int first, double pha
     return cloud;
   };
   return drive;
+}
+
+/// A drive of `frames` scans, 2 m apart, around a circle of 60 m radius (`laps` = frames * 2 / 377).
+inline Drive circle_drive(int session, std::size_t frames, int first, double phase, double direction = 1.0) {
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < frames; ++i) {
+    const double angle = phase + direction * 2.0 * static_cast<double>(i) / 60.0;
+    const double wobble = 1.0 + 0.2 * std::sin(3.0 * angle);
+    poses.push_back(pose_from_yaw(angle + direction * std::numbers::pi / 2.0,
+                                  {60.0 * wobble * std::cos(angle), 60.0 * wobble * std::sin(angle), 2.0}));
+  }
+  return drive_along(session, "circle", first, poses);
+}
+
+/// A drive of `frames` scans, 2 m apart, around a block of 160 m: long straights and short left turns, as streets are.
+inline Drive block_drive(int session, std::size_t frames, int first) {
+  constexpr std::size_t kStraight = 75;
+  constexpr std::size_t kTurn = 5;
+  std::vector<Pose> poses;
+  Eigen::Vector2d at(-75.0, -80.0);
+  double yaw = 0.0;
+  for (std::size_t i = 0; i < frames; ++i) {
+    poses.push_back(pose_from_yaw(yaw, {at.x(), at.y(), 2.0}));
+    yaw += i % (kStraight + kTurn) < kStraight ? 0.0 : std::numbers::pi / 2.0 / kTurn;
+    at += 2.0 * Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
+  }
+  return drive_along(session, "block", first, poses);
 }
 
 }  // namespace loopmark::test

@@ -83,6 +83,36 @@ TEST(Clouds, WindowLeavesOutStrayPointsAndBadOnes) {
   EXPECT_LT(fitting_window({}, View::kSide).left, fitting_window({}, View::kSide).right);
 }
 
+TEST(Clouds, PictureOfMotionsHasAPanelForEach) {
+  const std::vector<Eigen::Vector3f> corner = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {10, 10, 3}, {5, 5, 1}, {2, 8, 2}};
+  const Pose wrong = pose_from_yaw(1.0, {3.0, 1.0, 0.0});
+  const Image two = motions_picture(corner, corner, {{"a", wrong}, {"true", Pose::Identity()}}, 640);
+  const Image three = motions_picture(corner, corner, {{"a", wrong}, {"b", wrong}, {"true", Pose::Identity()}}, 960);
+  EXPECT_EQ(two.width, 640U);
+  EXPECT_EQ(three.width, 960U);
+  EXPECT_EQ(three.height, motions_picture(corner, corner, {{"a", wrong}, {"a", wrong}, {"true", {}}}, 960).height);
+  // The panels of one motion look alike, those of another do not.
+  const auto panel = [](const Image& image, std::size_t from) {
+    std::vector<Colour> pixels;
+    for (std::size_t row = 60; row < image.height; ++row) {
+      for (std::size_t column = from; column < from + 300; ++column) {
+        pixels.push_back(image.at(column, row));
+      }
+    }
+    return pixels;
+  };
+  const auto same = [](const std::vector<Colour>& a, const std::vector<Colour>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Colour& x, const Colour& y) {
+      return x.red == y.red && x.green == y.green && x.blue == y.blue;
+    });
+  };
+  const std::size_t step = (960 - 16) / 3 + 8;
+  EXPECT_FALSE(same(panel(three, 0), panel(three, 2 * step)));
+  const Image alike = motions_picture(corner, corner, {{"same", wrong}, {"same", wrong}}, 640);
+  EXPECT_TRUE(same(panel(alike, 0), panel(alike, 324)));
+  EXPECT_THROW(motions_picture(corner, corner, {}, 640), std::invalid_argument);
+}
+
 TEST(Clouds, PictureOfARegistrationShowsBothBeforeAndAfter) {
   std::vector<Eigen::Vector3f> target;
   for (int i = 0; i < 400; ++i) {

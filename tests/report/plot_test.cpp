@@ -50,6 +50,19 @@ TEST(Plot, LineIsDrawnTrueToScale) {
   EXPECT_NEAR(points[0].second - points[1].second, 2.0 * (points[2].second - points[1].second), 0.02);
 }
 
+TEST(Plot, ALongLegendMakesThePlotHigherNotItsAxesShorter) {
+  const auto drop = [](std::size_t lines) {
+    Plot plot("title", "x", "y");
+    plot.y_range(0, 1).line("the first", {0, 1}, {0, 1});
+    for (std::size_t i = 1; i < lines; ++i) {
+      plot.line("an algorithm with a name " + std::to_string(i), {0, 1}, {0.5, 0.5});
+    }
+    const auto points = path_points(plot.svg(), palette(0));
+    return points.at(0).second - points.at(1).second;
+  };
+  EXPECT_GT(drop(40), 0.9 * drop(1));
+}
+
 TEST(Plot, EqualAxesKeepAnglesOfTheWorld) {
   Plot plot("", "x", "y");
   plot.equal_axes().line("square", {0, 30, 30}, {0, 0, 30});

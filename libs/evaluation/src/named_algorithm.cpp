@@ -43,19 +43,20 @@ std::filesystem::path descriptor_file(const std::filesystem::path& folder, int s
 
 class PaperAlgorithm : public RegistrationAlgorithm {
  public:
-  /// `features`: folder of descriptors made elsewhere; empty: FPFH.
-  PaperAlgorithm(std::string name, PaperOptions options, std::filesystem::path features)
+  /// `features`: folder of descriptors made elsewhere; empty: FPFH. `key`: what variants that describe scans alike
+  /// share.
+  PaperAlgorithm(std::string name, PaperOptions options, std::filesystem::path features, std::string key,
+                 std::string settings)
       : name_(std::move(name)),
         options_(std::move(options)),
         features_(std::move(features)),
-        key_(features_.empty() ? description_key(options_) : "descriptors of " + features_.string()) {
+        key_(std::move(key)),
+        settings_(std::move(settings)) {
     options_.refine = false;
   }
 
   const std::string& name() const override { return name_; }
-  std::string settings() const override {
-    return "the paper's pipeline as " + name_ + ", seed " + std::to_string(options_.ransac.seed) + ", " + key_;
-  }
+  std::string settings() const override { return settings_; }
 
   Answer answer(const PairTask& task) override {
     const DescribedScan& source = task.scans->shared<DescribedScan>("source, " + key_, [&] {
@@ -64,7 +65,9 @@ class PaperAlgorithm : public RegistrationAlgorithm {
     const DescribedScan& target = task.scans->shared<DescribedScan>("target, " + key_, [&] {
       return described(task.scans->target(), task.key.target_session, task.key.target, nullptr);
     });
-    return answer_of(register_described(source, target, options_), source, target);
+    const ScanMatches& matches =
+        task.scans->shared<ScanMatches>("matches, " + key_, [&] { return match_described(source, target); });
+    return answer_of(register_matched(source, target, matches, options_), source, target);
   }
 
  private:
@@ -101,12 +104,12 @@ class PaperAlgorithm : public RegistrationAlgorithm {
   PaperOptions options_;
   std::filesystem::path features_;
   std::string key_;
+  std::string settings_;
 };
 
-/// The options behind a name; "NAME#3" has the seed 3.
-PaperOptions options_of(const std::string& name) {
+/// "NAME#3" has the seed 3.
+PaperOptions with_seed_of(const std::string& name, PaperOptions options) {
   const std::size_t mark = name.find('#');
-  PaperOptions options = named_algorithm(name.substr(0, mark));
   if (mark != std::string::npos) {
     const std::string number = name.substr(mark + 1);
     if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) {
@@ -117,18 +120,38 @@ PaperOptions options_of(const std::string& name) {
   return options;
 }
 
-}  // namespace
-
-std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name) {
-  return std::make_unique<PaperAlgorithm>(name, options_of(name), "");
-}
-
-std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name, const std::string& domain,
-                                                            const std::filesystem::path& folder) {
+std::unique_ptr<RegistrationAlgorithm> make_paper_algorithm(const std::string& name, const PaperOptions& options,
+                                                            const DescriptorSource& descriptors, std::string key,
+                                                            const std::string& settings) {
+  const auto& [domain, folder] = descriptors;
+  if (domain.empty()) {
+    return std::make_unique<PaperAlgorithm>(name, options, "", std::move(key), settings);
+  }
   if (!std::filesystem::is_directory(folder)) {
     throw InputError(folder.string(), "", "no such folder", "--features NAME=FOLDER");
   }
-  return std::make_unique<PaperAlgorithm>(name + "@" + domain, options_of(name), folder);
+  return std::make_unique<PaperAlgorithm>(name + "@" + domain, options, folder, "descriptors of " + folder.string(),
+                                          settings + ", descriptors of " + folder.string());
+}
+
+}  // namespace
+
+std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name,
+                                                            const DescriptorSource& descriptors) {
+  const PaperOptions options = with_seed_of(name, named_algorithm(name.substr(0, name.find('#'))));
+  const std::string key = description_key(options);
+  return make_paper_algorithm(
+      name, options, descriptors, key,
+      "the paper's pipeline as " + name + ", seed " + std::to_string(options.ransac.seed) + ", " + key);
+}
+
+std::unique_ptr<RegistrationAlgorithm> make_configured_algorithm(const std::string& name, const PaperOptions& options,
+                                                                 const std::string& settings,
+                                                                 const DescriptorSource& descriptors) {
+  const PaperOptions own = with_seed_of(name, options);
+  check(own);
+  return make_paper_algorithm(name, own, descriptors, "configured: " + settings,
+                              settings + "seed: " + std::to_string(own.ransac.seed));
 }
 
 }  // namespace loopmark

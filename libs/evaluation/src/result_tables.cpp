@@ -75,21 +75,22 @@ TextTable errors_table(const std::vector<AlgorithmSummary>& summaries) {
 
 TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::string& name,
                      const std::string& caption, std::vector<RecallBin> AlgorithmSummary::*bins) {
-  TextTable table{name, caption, {"Bin", "Pairs"}, {}, ""};
-  for (const AlgorithmSummary& s : summaries) {
-    table.columns.push_back(s.name);
-  }
+  TextTable table{name, caption, {"Algorithm"}, {}, "Wilson's 95 % intervals in brackets."};
   const std::vector<RecallBin>& first = summaries.front().*bins;
-  for (std::size_t b = 0; b < first.size(); ++b) {
-    if (first[b].pairs == 0) {
-      continue;
+  for (const RecallBin& bin : first) {
+    if (bin.pairs > 0) {
+      table.columns.push_back(bin_text(bin.low, bin.high) + ": " + std::to_string(bin.pairs) + " pairs");
     }
-    std::vector<std::string> row = {bin_text(first[b].low, first[b].high), std::to_string(first[b].pairs)};
-    for (const AlgorithmSummary& s : summaries) {
+  }
+  for (const AlgorithmSummary& s : summaries) {
+    std::vector<std::string> row = {s.name};
+    for (std::size_t b = 0; b < first.size(); ++b) {
       const RecallBin& bin = (s.*bins)[b];
-      row.push_back(bin.pairs == 0 ? "-"
-                                   : percent(bin.recall(), 1) + " (" +
-                                         range_text(wilson_interval(bin.successes, bin.pairs)) + ")");
+      if (first[b].pairs > 0) {
+        row.push_back(bin.pairs == 0 ? "-"
+                                     : percent(bin.recall(), 1) + " (" +
+                                           range_text(wilson_interval(bin.successes, bin.pairs)) + ")");
+      }
     }
     table.rows.push_back(std::move(row));
   }

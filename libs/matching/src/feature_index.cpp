@@ -12,8 +12,12 @@ namespace loopmark {
 namespace {
 
 using kernels::kBound;
+using kernels::kChunk;
+using kernels::kChunks;
+using kernels::kFine;
 using kernels::kHead;
 using kernels::kLeaf;
+using kernels::kMore;
 
 bool usable(const DescriptorMatrix& m, Eigen::Index r) {
   return m.row(r).allFinite() && m.row(r).cwiseAbs().maxCoeff() > 0.0F;
@@ -38,7 +42,7 @@ PrincipalFrame PrincipalFrame::of(const DescriptorMatrix& a, const DescriptorMat
   const Eigen::Index dimension = a.cols();
   PrincipalFrame frame;
   frame.mean = Eigen::VectorXd::Zero(dimension);
-  frame.directions = Eigen::MatrixXd::Zero(dimension, static_cast<Eigen::Index>(kHead));
+  frame.directions = Eigen::MatrixXd::Zero(dimension, static_cast<Eigen::Index>(kHead + kMore));
   for (const Eigen::VectorXd& row : sample) {
     frame.mean += row / static_cast<double>(sample.size());
   }
@@ -47,7 +51,7 @@ PrincipalFrame PrincipalFrame::of(const DescriptorMatrix& a, const DescriptorMat
     covariance.selfadjointView<Eigen::Lower>().rankUpdate(row - frame.mean);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  const auto heads = std::min<Eigen::Index>(dimension, static_cast<Eigen::Index>(kHead));
+  const auto heads = std::min<Eigen::Index>(dimension, static_cast<Eigen::Index>(kHead + kMore));
   frame.directions.leftCols(heads) = solver.eigenvectors().rightCols(heads).rowwise().reverse();
   return frame;
 }
@@ -55,7 +59,7 @@ PrincipalFrame PrincipalFrame::of(const DescriptorMatrix& a, const DescriptorMat
 FeatureIndex::FeatureIndex(const DescriptorMatrix& descriptors, const PrincipalFrame& frame)
     : padded_((static_cast<std::size_t>(descriptors.cols()) + kernels::kRowStep - 1) / kernels::kRowStep *
               kernels::kRowStep) {
-  std::vector<float> bounds(static_cast<std::size_t>(descriptors.rows()) * kBound, 0.0F);
+  std::vector<float> bounds(static_cast<std::size_t>(descriptors.rows()) * kFine, 0.0F);
   for (Eigen::Index r = 0; r < descriptors.rows(); ++r) {
     if (!usable(descriptors, r)) {
       continue;
@@ -63,12 +67,19 @@ FeatureIndex::FeatureIndex(const DescriptorMatrix& descriptors, const PrincipalF
     order_.push_back(static_cast<std::uint32_t>(r));
     const Eigen::VectorXd centred = descriptors.row(r).transpose().cast<double>() - frame.mean;
     const Eigen::VectorXd head = frame.directions.transpose() * centred;
-    const double rest = std::sqrt(std::max(0.0, centred.squaredNorm() - head.squaredNorm()));
-    float* out = bounds.data() + static_cast<std::size_t>(r) * kBound;
+    float* out = bounds.data() + static_cast<std::size_t>(r) * kFine;
+    const auto rest = [&](std::size_t used) {
+      return static_cast<float>(
+          std::sqrt(std::max(0.0, centred.squaredNorm() - head.head(static_cast<Eigen::Index>(used)).squaredNorm())));
+    };
     for (std::size_t d = 0; d < kHead; ++d) {
       out[d] = static_cast<float>(head[static_cast<Eigen::Index>(d)]);
     }
-    out[kHead] = static_cast<float>(rest);
+    out[kHead] = rest(kHead);
+    for (std::size_t d = 0; d < kMore; ++d) {
+      out[kBound + d] = static_cast<float>(head[static_cast<Eigen::Index>(kHead + d)]);
+    }
+    out[kFine - 1] = rest(kHead + kMore);
     largest_ = std::max(largest_, centred.norm());
   }
   leaves_ = (order_.size() + kLeaf - 1) / kLeaf;
@@ -76,10 +87,11 @@ FeatureIndex::FeatureIndex(const DescriptorMatrix& descriptors, const PrincipalF
   fill(descriptors, bounds);
 }
 
-/// Splits along the widest coordinate, at a multiple of kLeaf, until one leaf is left.
+/// Splits along the widest coordinate, at a multiple of kLeaf, within a leaf of kChunk, until one chunk is left.
 void FeatureIndex::sort_into_leaves(std::uint32_t begin, std::uint32_t end, const std::vector<float>& bounds) {
-  const std::size_t leaves = (end - begin + kLeaf - 1) / kLeaf;
-  if (leaves <= 1) {
+  const std::size_t part = end - begin > kLeaf ? kLeaf : kChunk;
+  const std::size_t parts = (end - begin + part - 1) / part;
+  if (parts <= 1) {
     return;
   }
   std::array<float, kBound> low;
@@ -87,7 +99,7 @@ void FeatureIndex::sort_into_leaves(std::uint32_t begin, std::uint32_t end, cons
   low.fill(std::numeric_limits<float>::infinity());
   high.fill(-std::numeric_limits<float>::infinity());
   for (std::uint32_t i = begin; i < end; ++i) {
-    const float* b = bounds.data() + order_[i] * kBound;
+    const float* b = bounds.data() + order_[i] * kFine;
     for (std::size_t d = 0; d < kBound; ++d) {
       low[d] = std::min(low[d], b[d]);
       high[d] = std::max(high[d], b[d]);
@@ -97,11 +109,11 @@ void FeatureIndex::sort_into_leaves(std::uint32_t begin, std::uint32_t end, cons
   for (std::size_t d = 1; d < kBound; ++d) {
     widest = high[d] - low[d] > high[widest] - low[widest] ? d : widest;
   }
-  const std::uint32_t middle = begin + static_cast<std::uint32_t>((leaves + 1) / 2 * kLeaf);
+  const std::uint32_t middle = begin + static_cast<std::uint32_t>((parts + 1) / 2 * part);
   std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                    [&](std::uint32_t a, std::uint32_t b) {
-                     const float va = bounds[a * kBound + widest];
-                     const float vb = bounds[b * kBound + widest];
+                     const float va = bounds[a * kFine + widest];
+                     const float vb = bounds[b * kFine + widest];
                      return va < vb || (va == vb && a < b);
                    });
   sort_into_leaves(begin, middle, bounds);
@@ -111,20 +123,32 @@ void FeatureIndex::sort_into_leaves(std::uint32_t begin, std::uint32_t end, cons
 void FeatureIndex::fill(const DescriptorMatrix& descriptors, const std::vector<float>& bounds) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   rows_.assign(order_.size() * padded_, 0.0F);
-  heads_.resize(order_.size() * kBound);
-  lanes_.assign(leaves_ * kBound * kLeaf, kInfinity);
+  heads_.resize(order_.size() * kFine);
+  lanes_.assign(leaves_ * kFine * kLeaf, kInfinity);
   low_.assign(kBound * leaves_, kInfinity);
   high_.assign(kBound * leaves_, -kInfinity);
+  boxes_.assign(leaves_ * 2 * kBound * kChunks, kInfinity);
+  for (std::size_t leaf = 0; leaf < leaves_; ++leaf) {
+    const auto high = boxes_.begin() + static_cast<std::ptrdiff_t>((2 * leaf + 1) * kBound * kChunks);
+    std::fill_n(high, kBound * kChunks, -kInfinity);
+  }
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const auto columns = static_cast<std::size_t>(descriptors.cols());
     std::copy_n(descriptors.data() + order_[i] * columns, columns, rows_.data() + i * padded_);
     const std::size_t leaf = i / kLeaf;
+    for (std::size_t d = 0; d < kFine; ++d) {
+      const float value = bounds[order_[i] * kFine + d];
+      heads_[i * kFine + d] = value;
+      lanes_[(i / kChunk * kFine + d) * kChunk + i % kChunk] = value;
+    }
     for (std::size_t d = 0; d < kBound; ++d) {
-      const float value = bounds[order_[i] * kBound + d];
-      heads_[i * kBound + d] = value;
-      lanes_[(leaf * kBound + d) * kLeaf + i % kLeaf] = value;
+      const float value = bounds[order_[i] * kFine + d];
       low_[d * leaves_ + leaf] = std::min(low_[d * leaves_ + leaf], value);
       high_[d * leaves_ + leaf] = std::max(high_[d * leaves_ + leaf], value);
+      float* low = boxes_.data() + (2 * leaf * kBound + d) * kChunks + i % kLeaf / kChunk;
+      float* high = low + kBound * kChunks;
+      *low = std::min(*low, value);
+      *high = std::max(*high, value);
     }
   }
 }
@@ -164,61 +188,100 @@ void FeatureIndex::offer(Search& search, std::size_t place) const {
 }
 
 void FeatureIndex::search_leaf(Search& search, std::size_t leaf) const {
-  std::array<std::uint8_t, kLeaf + 1> hits;
+  std::array<std::uint8_t, kLeaf> hits;
+  std::array<float, kLeaf> bounds;
   const std::size_t count =
-      kernels::leaf_hits(search.head, lanes_.data() + leaf * kBound * kLeaf, search.threshold(), hits.data());
+      kernels::leaf_hits(search.head, lanes_.data() + leaf * kFine * kLeaf, boxes_.data() + leaf * 2 * kBound * kChunks,
+                         search.threshold(), bounds.data(), hits.data());
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t place = leaf * kLeaf + hits[k];
-    if (place < order_.size()) {
-      offer(search, place);
+    // The threshold falls with every better neighbour. Lanes without a point have no finite bound.
+    if (bounds[hits[k]] < search.threshold()) {
+      offer(search, leaf * kLeaf + hits[k]);
     }
   }
 }
 
-namespace {
+/// What the searches of one chunk of queries share: the leaves that may hold a neighbour of any of them.
+struct FeatureIndex::Candidates {
+  std::vector<float> bound;  ///< of each leaf, from the box of the queries
+  std::vector<std::uint64_t> keys;
+  std::vector<float> low, high;  ///< boxes of the candidates, [kBound][candidates]
+  std::size_t home = 0;          ///< the leaf nearest to the queries
 
-/// The leaves whose bound is below the threshold, the nearest first: as keys with the leaf in the low half. Bounds are
-/// not negative, so their bits are in the order of their values.
-std::size_t nearest_leaves(const std::vector<float>& bound, float threshold, std::vector<std::uint64_t>& keys) {
-  std::size_t count = 0;
-  for (std::size_t leaf = 0; leaf < bound.size(); ++leaf) {
-    keys[count] = static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(bound[leaf])) << 32U | leaf;
-    count += bound[leaf] < threshold ? 1U : 0U;
+  std::uint32_t leaf(std::size_t k) const { return static_cast<std::uint32_t>(keys[k]); }
+};
+
+void FeatureIndex::nearest_leaf(const FeatureIndex& queries, std::size_t chunk, Candidates& candidates) const {
+  std::array<float, kBound> low;
+  std::array<float, kBound> high;
+  const float* box = queries.boxes_.data() + chunk / kChunks * 2 * kBound * kChunks + chunk % kChunks;
+  for (std::size_t d = 0; d < kBound; ++d) {
+    low[d] = box[d * kChunks];
+    high[d] = box[(kBound + d) * kChunks];
   }
-  std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count));
-  return count;
+  candidates.bound.resize(leaves_);
+  kernels::boxes_bounds(low.data(), high.data(), low_.data(), high_.data(), leaves_, candidates.bound.data());
+  const auto& bound = candidates.bound;
+  candidates.home = static_cast<std::size_t>(std::min_element(bound.begin(), bound.end()) - bound.begin());
 }
 
-}  // namespace
+/// All but the home leaf whose bound is below the threshold, the nearest first: as keys with the leaf in the low half.
+/// Bounds are not negative, so their bits are in the order of their values.
+void FeatureIndex::gather(float threshold, Candidates& candidates) const {
+  candidates.keys.clear();
+  for (std::size_t leaf = 0; leaf < leaves_; ++leaf) {
+    const float bound = candidates.bound[leaf];
+    if (bound < threshold && leaf != candidates.home) {
+      candidates.keys.push_back(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(bound)) << 32U | leaf);
+    }
+  }
+  std::sort(candidates.keys.begin(), candidates.keys.end());
+  const std::size_t count = candidates.keys.size();
+  candidates.low.resize(kBound * count);
+  candidates.high.resize(kBound * count);
+  for (std::size_t d = 0; d < kBound; ++d) {
+    for (std::size_t k = 0; k < count; ++k) {
+      candidates.low[d * count + k] = low_[d * leaves_ + candidates.leaf(k)];
+      candidates.high[d * count + k] = high_[d * leaves_ + candidates.leaf(k)];
+    }
+  }
+}
 
 void FeatureIndex::search(const FeatureIndex& queries, std::size_t begin, std::size_t end, double slack,
                           std::vector<NearestTwo>& out) const {
   if (order_.empty()) {
     return;
   }
-  std::vector<float> bound(leaves_);
-  std::vector<std::uint64_t> candidates(leaves_ + 1);
+  Candidates candidates;
+  std::vector<float> bound;
+  std::array<Search, kChunk> searches;
   std::array<std::size_t, 2> before{0, std::min<std::size_t>(1, order_.size() - 1)};
-  for (std::size_t i = begin; i < end; ++i) {
-    Search search{queries.row(i), queries.heads_.data() + i * kBound, static_cast<float>(slack), {}, {}};
-    // What the query before found is near to this one too.
-    offer(search, before[0]);
-    offer(search, before[1]);
-    kernels::box_bounds(search.head, low_.data(), high_.data(), leaves_, bound.data());
-    const auto home = static_cast<std::size_t>(std::min_element(bound.begin(), bound.end()) - bound.begin());
-    search_leaf(search, home);
-    const std::size_t count = nearest_leaves(bound, search.threshold(), candidates);
-    for (std::size_t c = 0; c < count; ++c) {
-      const auto leaf = static_cast<std::size_t>(candidates[c] & 0xFFFFFFFFU);
-      if (!(bound[leaf] < search.threshold())) {
-        break;
-      }
-      if (leaf != home) {
-        search_leaf(search, leaf);
-      }
+  for (std::size_t from = begin; from < end; from += kChunk) {
+    const std::size_t count = std::min(kChunk, end - from);
+    nearest_leaf(queries, from / kChunk, candidates);
+    float threshold = 0.0F;
+    for (std::size_t i = 0; i < count; ++i) {
+      Search& search = searches[i] = {
+          queries.row(from + i), queries.heads_.data() + (from + i) * kFine, static_cast<float>(slack), {}, {}};
+      // What the query before found is near to this one too.
+      offer(search, before[0]);
+      offer(search, before[1]);
+      search_leaf(search, candidates.home);
+      before = search.best.second == kNoNeighbour ? before : search.places;
+      threshold = std::max(threshold, search.threshold());
     }
-    out[queries.order_[i]] = search.best;
-    before = search.best.second == kNoNeighbour ? before : search.places;
+    gather(threshold, candidates);
+    bound.resize(candidates.keys.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      Search& search = searches[i];
+      kernels::box_bounds(search.head, candidates.low.data(), candidates.high.data(), bound.size(), bound.data());
+      for (std::size_t k = 0; k < bound.size(); ++k) {
+        if (bound[k] < search.threshold()) {
+          search_leaf(search, candidates.leaf(k));
+        }
+      }
+      out[queries.order_[from + i]] = search.best;
+    }
   }
 }
 

@@ -15,7 +15,7 @@ namespace loopmark {
 /// true ones, plus the length of what the projection leaves out.
 struct PrincipalFrame {
   Eigen::VectorXd mean;
-  Eigen::MatrixXd directions;  ///< one column a direction, kernels::kHead of them (zero columns where fewer)
+  Eigen::MatrixXd directions;  ///< one column a direction, kHead + kMore of them (zero columns where fewer)
   double largest = 0.0;        ///< longest centred descriptor seen so far
 
   static PrincipalFrame of(const DescriptorMatrix& a, const DescriptorMatrix& b);
@@ -38,6 +38,10 @@ class FeatureIndex {
 
  private:
   struct Search;
+  struct Candidates;
+  /// Bounds of all leaves from the box of a chunk of queries.
+  void nearest_leaf(const FeatureIndex& queries, std::size_t chunk, Candidates& candidates) const;
+  void gather(float threshold, Candidates& candidates) const;
   void sort_into_leaves(std::uint32_t begin, std::uint32_t end, const std::vector<float>& bounds);
   void fill(const DescriptorMatrix& descriptors, const std::vector<float>& bounds);
   const float* row(std::size_t place) const { return rows_.data() + place * padded_; }
@@ -49,9 +53,10 @@ class FeatureIndex {
   double largest_ = 0.0;
   std::vector<std::uint32_t> order_;
   std::vector<float> rows_;        ///< padded descriptors in leaf order
-  std::vector<float> heads_;       ///< bound coordinates of each descriptor in leaf order, [size][kBound]
-  std::vector<float> lanes_;       ///< the same, leaf by leaf, [kBound][kLeaf]
-  std::vector<float> low_, high_;  ///< boxes, [kBound][leaves]
+  std::vector<float> heads_;       ///< bound coordinates of each descriptor in leaf order, [size][kFine]
+  std::vector<float> lanes_;       ///< the same, chunk by chunk, [kFine][kChunk]
+  std::vector<float> low_, high_;  ///< boxes of the leaves, [kBound][leaves]
+  std::vector<float> boxes_;       ///< boxes of the chunks, leaf by leaf: low, high, [kBound][kChunks] each
 };
 
 }  // namespace loopmark

@@ -73,6 +73,8 @@ std::vector<NamedAlgorithm> make_table() {
       {"ransac_no_rejection", "PROSAC, no early rejection, LO", "roles", roles(kProsac, Rejection::kNone, kLo)},
       {"gcransac", "PROSAC, ELC, graph cut", "local", roles(kProsac, kElc, LocalOptimization::kGraphCut)},
       {"ransac_no_lo", "PROSAC, ELC, no local optimisation", "local", roles(kProsac, kElc, LocalOptimization::kNone)},
+      {"ransac_gpf3_1m", "RANSAC (GPF(3)), 1 M iterations, as in the paper's same-domain table", "",
+       gpf(3.0, 1'000'000)},
       {"ransac_gpf1", "GPF(1)", "phi", gpf(1.0)},
       {"ransac_gpf3", "GPF(3)", "phi", gpf(3.0)},
       {"ransac_gpf_10k", "GPF(2), 10 k iterations", "iterations", gpf(2.0, 10'000)},

@@ -124,17 +124,27 @@ DescribedScan described_scan(std::vector<Eigen::Vector3f> keypoints, DescriptorM
   return scan;
 }
 
+ScanMatches match_described(const DescribedScan& source, const DescribedScan& target) {
+  ScanMatches matches;
+  matches.all = timed(matches.timings, "nearest",
+                      [&] { return correspondences_of(nearest_two(source.descriptors, target.descriptors)); });
+  matches.mutual = keep_mutual(matches.all).size();
+  return matches;
+}
+
 PaperResult register_described(const DescribedScan& source, const DescribedScan& target, const PaperOptions& options) {
+  return register_matched(source, target, match_described(source, target), options);
+}
+
+PaperResult register_matched(const DescribedScan& source, const DescribedScan& target, const ScanMatches& matches,
+                             const PaperOptions& options) {
   check(options);
   PaperResult result;
-  // Sec. 4: every source point is matched to the target point nearest to it in feature space.
-  const Correspondences matches = timed(result.timings, "nearest", [&] {
-    return correspondences_of(nearest_two(source.descriptors, target.descriptors));
-  });
-  result.matches = matches.size();
-  result.mutual_matches = keep_mutual(matches).size();
+  result.timings = matches.timings;
+  result.matches = matches.all.size();
+  result.mutual_matches = matches.mutual;
   // Sec. 4 and appendix "GPF": mutual nearest neighbours, or Grid-Prioritized Filtering.
-  result.used = timed(result.timings, "filter", [&] { return filter_matches(matches, source.keypoints, options); });
+  result.used = timed(result.timings, "filter", [&] { return filter_matches(matches.all, source.keypoints, options); });
   result.used_matches = result.used.size();
   // Sec. 5: robust estimation of the motion.
   result.estimate = timed(result.timings, "estimate", [&] {

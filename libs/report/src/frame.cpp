@@ -122,10 +122,14 @@ double widest(const std::vector<Tick>& ticks) {
   return width;
 }
 
+/// A legend of more rows than this makes the plot higher instead of its axes shorter.
+constexpr double kLegendRowsWithin = 2.0;
+
 void lay_out_vertically(const Plot::Content& content, Frame& frame) {
   frame.legend_top = content.title.empty() ? 6.0 : 28.0;
   const auto legend = lay_out_legend(content, 12.0, content.width - 12.0, frame.legend_top);
   frame.top = (legend.empty() ? frame.legend_top : legend.back().y + kLegendRow) + 8.0;
+  frame.height += std::max(0.0, frame.top - frame.legend_top - 8.0 - kLegendRowsWithin * kLegendRow);
   frame.label_drop = 18.0;
   if (!content.categories.empty()) {
     const double names = widest(category_ticks(content.categories));
@@ -133,7 +137,7 @@ void lay_out_vertically(const Plot::Content& content, Frame& frame) {
     frame.slanted = names > slot - 8.0;
     frame.label_drop = frame.slanted ? 14.0 + names * std::sin(std::numbers::pi / 6.0) : 18.0;
   }
-  frame.bottom = content.height - frame.label_drop - (content.x.label.empty() ? 4.0 : 22.0);
+  frame.bottom = frame.height - frame.label_drop - (content.x.label.empty() ? 4.0 : 22.0);
 }
 
 }  // namespace

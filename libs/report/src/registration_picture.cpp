@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <stdexcept>
 
 #include "loopmark/report/picture.hpp"
 
@@ -12,17 +13,20 @@ using Points = std::vector<Eigen::Vector3f>;
 constexpr std::size_t kCaptionHeight = 26;
 constexpr std::size_t kGap = 8;
 
-struct Panel {
-  std::string caption;
-  Pose T_target_source;
-};
-
 std::vector<CloudLayer> layers_of(const Points& source, const Points& target, const Pose& T_target_source) {
   return {{target, Pose::Identity(), palette(0)}, {source, T_target_source, palette(1)}};
 }
 
+/// The caption with the way of looking, as far as it fits.
+std::string fitting(const std::string& caption, View view, std::size_t width) {
+  constexpr std::size_t kLetter = 12;
+  const std::string whole = caption + (view == View::kAbove ? ", from above" : ", from the side");
+  const std::size_t room = width / kLetter;
+  return whole.size() <= room ? whole : caption.substr(0, room);
+}
+
 /// Both clouds seen one way under each panel's motion, side by side, all with the window that fits the last panel.
-Image panel_row(const Points& source, const Points& target, const std::vector<Panel>& panels, View view,
+Image panel_row(const Points& source, const Points& target, const std::vector<MotionPanel>& panels, View view,
                 std::size_t width) {
   const Window window = fitting_window(layers_of(source, target, panels.back().T_target_source), view);
   const std::size_t panel_width = (width - kGap * (panels.size() - 1)) / panels.size();
@@ -33,14 +37,19 @@ Image panel_row(const Points& source, const Points& target, const std::vector<Pa
       row = Image(width, drawn.height + kCaptionHeight);
     }
     const std::size_t column = i * (panel_width + kGap);
-    const std::string way = view == View::kAbove ? ", from above" : ", from the side";
-    draw_text(row, panels[i].caption + way, column + 4, 6, kInk);
+    draw_text(row, fitting(panels[i].caption, view, panel_width), column + 4, 6, kInk);
     paste(row, drawn, column, kCaptionHeight);
   }
   return row;
 }
 
-Image panels_picture(const Points& source, const Points& target, const std::vector<Panel>& panels, std::size_t width) {
+}  // namespace
+
+Image motions_picture(const Points& source, const Points& target, const std::vector<MotionPanel>& panels,
+                      std::size_t width) {
+  if (panels.empty()) {
+    throw std::invalid_argument("motions_picture: no motion is given");
+  }
   const Image above = panel_row(source, target, panels, View::kAbove, width);
   const Image side = panel_row(source, target, panels, View::kSide, width);
   Image whole(width, kCaptionHeight + above.height + side.height);
@@ -51,15 +60,8 @@ Image panels_picture(const Points& source, const Points& target, const std::vect
   return whole;
 }
 
-}  // namespace
-
 Image registration_picture(const Points& source, const Points& target, const Pose& T_target_source, std::size_t width) {
-  return panels_picture(source, target, {{"before", Pose::Identity()}, {"after", T_target_source}}, width);
-}
-
-Image failure_picture(const Points& source, const Points& target, const Pose& T_answered, const Pose& T_true,
-                      std::size_t width) {
-  return panels_picture(source, target, {{"answered", T_answered}, {"true", T_true}}, width);
+  return motions_picture(source, target, {{"before", Pose::Identity()}, {"after", T_target_source}}, width);
 }
 
 }  // namespace loopmark::report

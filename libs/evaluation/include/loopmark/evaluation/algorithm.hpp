@@ -11,6 +11,7 @@
 
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/evaluation/outcome.hpp"
+#include "loopmark/registration/paper_options.hpp"
 
 namespace loopmark {
 
@@ -65,14 +66,22 @@ using AlgorithmList = std::vector<std::unique_ptr<RegistrationAlgorithm>>;
 /// The registration engine, called "engine".
 std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const EngineOptions& options, std::string settings);
 
-/// A variant of the paper's pipeline (named_algorithms()), without its refinement. "NAME#3" is NAME with the seed 3.
-/// Algorithms that describe scans alike share the descriptors of a pair.
-std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name);
+/// Descriptors made elsewhere: keypoints and descriptors of a frame are read from folder/SESSION/FRAME.npz
+/// (read_descriptors), FRAME as a plain number or with six digits. Algorithms on them are called "NAME@DOMAIN".
+struct DescriptorSource {
+  std::string domain;  ///< empty: none, FPFH
+  std::filesystem::path folder;
+};
 
-/// The same on descriptors made elsewhere, called "NAME@DOMAIN": keypoints and descriptors of a frame are read from
-/// folder/SESSION/FRAME.npz (read_descriptors), FRAME as a plain number or with six digits.
-std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name, const std::string& domain,
-                                                            const std::filesystem::path& folder);
+/// A variant of the paper's pipeline (named_algorithms()), without its refinement. "NAME#3" is NAME with the seed 3.
+/// Algorithms that describe scans alike share the descriptors and the matches of a pair.
+std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name,
+                                                            const DescriptorSource& descriptors = {});
+
+/// The paper's pipeline with options of one's own; `settings` are the options as text.
+std::unique_ptr<RegistrationAlgorithm> make_configured_algorithm(const std::string& name, const PaperOptions& options,
+                                                                 const std::string& settings,
+                                                                 const DescriptorSource& descriptors = {});
 
 /// Answers that were found before: one motion a pair. Pairs behind the last (negatives) fail.
 std::unique_ptr<RegistrationAlgorithm> make_motions_algorithm(std::string name, std::vector<Pose> motions);

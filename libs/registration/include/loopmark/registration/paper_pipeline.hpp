@@ -55,6 +55,20 @@ struct PaperResult {
   double all_seconds() const;
 };
 
+/// What the estimators of a pair start from; variants that describe scans alike share it.
+struct ScanMatches {
+  Correspondences all;  ///< of each source keypoint the nearest target keypoint in feature space
+  std::size_t mutual = 0;
+  std::vector<StageTime> timings;  ///< "nearest"
+};
+
+/// Sec. 4 of the paper: every source point is matched to the target point nearest to it in feature space.
+ScanMatches match_described(const DescribedScan& source, const DescribedScan& target);
+
+/// Finds T_target_source from the matches of two described scans; the timings start with those of the matches.
+PaperResult register_matched(const DescribedScan& source, const DescribedScan& target, const ScanMatches& matches,
+                             const PaperOptions& options);
+
 /// Finds T_target_source from the descriptors of two scans.
 PaperResult register_described(const DescribedScan& source, const DescribedScan& target, const PaperOptions& options);
 

@@ -69,8 +69,15 @@ Image draw_clouds(const std::vector<CloudLayer>& layers, View view, const Window
 Image registration_picture(const std::vector<Eigen::Vector3f>& source, const std::vector<Eigen::Vector3f>& target,
                            const Pose& T_target_source, std::size_t width = 1200);
 
-/// The same with what is true beside what was answered: for a pair that failed.
-Image failure_picture(const std::vector<Eigen::Vector3f>& source, const std::vector<Eigen::Vector3f>& target,
-                      const Pose& T_answered, const Pose& T_true, std::size_t width = 1200);
+/// Two clouds under one of several motions.
+struct MotionPanel {
+  std::string caption;
+  Pose T_target_source = Pose::Identity();
+};
+
+/// The two clouds under each motion, side by side with captions, from above and from the side; all with the window that
+/// fits the last: what is true beside what was answered, for a pair that failed.
+Image motions_picture(const std::vector<Eigen::Vector3f>& source, const std::vector<Eigen::Vector3f>& target,
+                      const std::vector<MotionPanel>& panels, std::size_t width = 1200);
 
 }  // namespace loopmark::report

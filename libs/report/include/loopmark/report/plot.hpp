@@ -64,7 +64,7 @@ class Plot {
   Plot& y_range(double low, double high);
   Plot& log_x();
   Plot& log_y();
-  Plot& size(double width_px, double height_px);  ///< of the whole, default 640 x 400
+  Plot& size(double width_px, double height_px);  ///< of the whole, default 640 x 400; a long legend adds to it
 
   /// The plot as one <svg> element.
   std::string svg() const;
