@@ -24,7 +24,8 @@ OccupancyStatistics write_occupancy(const RunFolder& folder, const SolvedMap& ma
 /// pieces that found no place in it.
 void write_clouds(const RunFolder& folder, const SolvedMap& map, double voxel_m);
 
-/// map.simplemap and map.3Dscene for MRPT's tools: the first component.
+/// map.simplemap and map.3Dscene for MRPT's tools: the first component. The scene shows one point a voxel of 0.5 m, of
+/// larger voxels where these would be over a million.
 void write_mrpt_products(const RunFolder& folder, const std::vector<ScanRecord>& scans,
                          const std::vector<LoopRecord>& loops, const SolvedMap& map);
 
