@@ -38,9 +38,17 @@ void declare(CLI::App& command, MapArguments& a) {
 std::filesystem::path job_file(const RunFolder& folder) { return folder / "records/job.json"; }
 
 void write_job(const RunFolder& folder, const MapJob& job, const AppOptions& options) {
-  const nlohmann::ordered_json json = {{"log", job.log.string()}, {"truth", job.truth.string()}};
+  const nlohmann::ordered_json json = {
+      {"log", job.log.string()}, {"truth", job.truth.string()}, {"arguments", job.arguments}, {"resumed", job.resumed}};
   write_file_atomically(folder / "config.yaml", options_as_yaml(options));
   write_file_atomically(job_file(folder), json.dump(1) + "\n");
+}
+
+MapJob read_job(const RunFolder& folder) {
+  const nlohmann::json json = nlohmann::json::parse(read_file(job_file(folder)));
+  return {json.at("log").get<std::string>(), json.at("truth").get<std::string>(),
+          json.value("arguments", std::vector<std::string>{}),
+          json.value("resumed", std::vector<std::vector<std::string>>{})};
 }
 
 MapOutcome start(const MapArguments& a, const Globals& globals) {
@@ -51,21 +59,32 @@ MapOutcome start(const MapArguments& a, const Globals& globals) {
   if (!std::filesystem::exists(a.log)) {
     throw InputError(a.log.string(), "", "there is no such log", "give a folder of scans or a rawlog");
   }
-  const MapJob job{std::filesystem::absolute(a.log), a.truth.empty() ? a.truth : std::filesystem::absolute(a.truth)};
+  const MapJob job{std::filesystem::absolute(a.log), a.truth.empty() ? a.truth : std::filesystem::absolute(a.truth),
+                   globals.arguments};
   const RunFolder folder = RunFolder::create(a.output);
+  try {
+    write_job(folder, job, options);
+    return run_map(folder, job, options);
+  } catch (...) {
+    if (!std::filesystem::exists(folder.scan_records())) {  // there is nothing yet that could be resumed
+      std::error_code ignored;
+      std::filesystem::remove_all(folder.path(), ignored);
+    }
+    throw;
+  }
+}
+
+MapOutcome go_on(const MapArguments& a, const Globals& globals) {
+  const RunFolder folder = RunFolder::resume(a.resume);
+  const AppOptions options = config::load<AppOptions>(folder / "config.yaml", {});
+  MapJob job = read_job(folder);
+  job.resumed.push_back(globals.arguments);
   write_job(folder, job, options);
   return run_map(folder, job, options);
 }
 
-MapOutcome go_on(const MapArguments& a) {
-  const RunFolder folder = RunFolder::resume(a.resume);
-  const AppOptions options = config::load<AppOptions>(folder / "config.yaml", {});
-  const nlohmann::json json = nlohmann::json::parse(read_file(job_file(folder)));
-  return run_map(folder, {json.at("log").get<std::string>(), json.at("truth").get<std::string>()}, options);
-}
-
 int map(const MapArguments& a, const Globals& globals) {
-  const MapOutcome outcome = a.resume.empty() ? start(a, globals) : go_on(a);
+  const MapOutcome outcome = a.resume.empty() ? start(a, globals) : go_on(a, globals);
   const std::filesystem::path run = a.resume.empty() ? a.output : a.resume;
   std::printf("%s is whole:\n%s", run.c_str(), closing_table(outcome).c_str());
   std::printf("  map           %s\n  trajectory    %s\n  report        %s\n", (run / "map.bt").c_str(),

@@ -18,6 +18,7 @@ namespace loopmark {
 namespace {
 
 constexpr std::size_t kLeastPoints = 100;    // of a scan that can be used, after thinning
+constexpr double kWorthAgreeing = 0.3;       // P(correct) of an answer that another one may confirm
 constexpr std::size_t kPieceNeighbours = 3;  // keyframes before a new piece that its first keyframes are tried with
 
 std::filesystem::path state_file(const RunFolder& folder) { return folder / "records/odometry.state"; }
@@ -138,7 +139,9 @@ Mapper::Placed Mapper::place(const Scan& scan) {
   return placed;
 }
 
-/// Global registration to the latest keyframes of the piece: one sure answer, or two that agree.
+/// Global registration to the latest keyframes of the piece: one sure answer, or two that agree. Two that are not sure
+/// each by itself count too: what deceives a registration moves along with the sensor, and so says different places
+/// when the keyframes are at different places.
 bool Mapper::recover(const Scan& scan, Placed& placed) const {
   if (!registrar_) {
     return false;
@@ -152,7 +155,7 @@ bool Mapper::recover(const Scan& scan, Placed& placed) const {
     }
     const RegistrationResult result =
         registrar_->align(source, read_file(folder_.keyframe(keyframe.number, "prepared")));
-    if (!result.answered) {
+    if (!result.answered && result.p_correct < kWorthAgreeing) {
       continue;
     }
     const Pose pose = keyframe.T_piece_lidar * result.T_target_source;
@@ -240,7 +243,7 @@ std::vector<std::vector<LoopRecord>> Mapper::candidates() const {
     const PlaceSignature signature = read_keyframe_place(folder_, k);
     const auto apart = [&](std::size_t earlier) {
       return keyframes_[earlier].piece != keyframes_[k].piece ||
-             keyframes_[k].path_m - keyframes_[earlier].path_m > options_.slam.loop_gap_m;
+             comes_back(keyframes_[earlier], keyframes_[k], options_.slam.loop_gap_m);
     };
     const bool due = keyframes_[k].path_m - looked_up_m >= options_.slam.loop_every_m;
     looked_up_m = due ? keyframes_[k].path_m : looked_up_m;
