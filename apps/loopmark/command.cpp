@@ -37,20 +37,25 @@ const std::vector<Command>& commands() {
 
 AppOptions Globals::options() const { return config::load<AppOptions>(config_file, settings); }
 
+ExitCode exit_code_of(const std::exception& problem) {
+  if (dynamic_cast<const InputError*>(&problem) != nullptr) {
+    return ExitCode::kInput;
+  }
+  return dynamic_cast<const Interrupted*>(&problem) != nullptr ? ExitCode::kInterrupted : ExitCode::kInternal;
+}
+
 namespace {
 
 int guarded(const Action& action) {
   try {
     return action();
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return static_cast<int>(ExitCode::kInput);
-  } catch (const Interrupted&) {
-    std::fprintf(stderr, "interrupted\n");
-    return static_cast<int>(ExitCode::kInterrupted);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "internal error: %s\n", error.what());
-    return static_cast<int>(ExitCode::kInternal);
+  } catch (const std::exception& problem) {
+    const ExitCode code = exit_code_of(problem);
+    const char* const kind = code == ExitCode::kInput      ? "error: "
+                             : code == ExitCode::kInternal ? "internal error: "
+                                                           : "";
+    std::fprintf(stderr, "%s%s\n", kind, problem.what());
+    return static_cast<int>(code);
   }
 }
 
@@ -70,6 +75,7 @@ int run(int argc, const char* const* argv) {
   program.require_subcommand(1);
   program.fallthrough();
   Globals globals;
+  globals.arguments.assign(argv + 1, argv + argc);
   add_globals(program, globals);
   std::map<const CLI::App*, Action> actions;
   for (const Command& command : commands()) {

@@ -12,15 +12,17 @@
 #include <vector>
 
 #include "app_options.hpp"
+#include "loopmark/core/error.hpp"
 
 namespace loopmark::app {
 
 /// Options that stand before or behind every subcommand.
 struct Globals {
-  std::filesystem::path config_file;  ///< --config FILE.yaml
-  std::vector<std::string> settings;  ///< --set a.b=c
-  std::size_t threads = 0;            ///< --threads N; 0: one a core
-  bool quiet = false;                 ///< --quiet
+  std::filesystem::path config_file;   ///< --config FILE.yaml
+  std::vector<std::string> settings;   ///< --set a.b=c
+  std::size_t threads = 0;             ///< --threads N; 0: one a core
+  bool quiet = false;                  ///< --quiet
+  std::vector<std::string> arguments;  ///< all of them, as given
 
   /// The defaults, changed by the file and then by --set. Throws InputError with file, line and nearest key.
   AppOptions options() const;
@@ -38,6 +40,9 @@ struct Command {
 
 /// Every subcommand, in the order of the help.
 const std::vector<Command>& commands();
+
+/// What the program ends with when this has gone wrong.
+ExitCode exit_code_of(const std::exception& problem);
 
 /// Parses the command line and runs the chosen subcommand; turns exceptions into exit codes.
 int run(int argc, const char* const* argv);

@@ -88,7 +88,7 @@ int extend(const ExtendArguments& a, const Globals& globals) {
     throw InputError(a.output.string(), "", "is there already and is never overwritten", "choose another name for -o");
   }
   const fs::path drive = drive_beside(a.output.empty() ? a.run : a.output);
-  start_map(a.log, a.truth, drive, options_for_log(a.run, globals));
+  start_map(a.log, a.truth, drive, globals, options_for_log(a.run, globals));
   fs::path before;
   try {
     print_merge(join(a, globals, drive, before));

@@ -123,12 +123,9 @@ MapTimes times_of(const OpenedRun& run) {
 /// The manifest of the new run: the input as it was, and the hashes of files that are shared with the old run.
 Manifest manifest_of(const OpenedRun& run, const std::vector<std::string>& arguments) {
   const nlohmann::json old = json_file(run.folder / "manifest.json");
-  Manifest manifest;
+  Manifest manifest = input_of_manifest(run.folder);
   manifest.arguments = arguments;
   manifest.started = utc_now();
-  const nlohmann::json input = old.value("input", nlohmann::json::object());
-  manifest.log = input.value("log", "");
-  manifest.input_sha256 = input.value("sha256_of_scans_as_read", "");
   const nlohmann::json hashes = old.value("sha256", nlohmann::json::object());
   for (const auto& [file, hash] : hashes.items()) {
     if (file.starts_with("keyframes/")) {

@@ -36,11 +36,11 @@ MapOutcome start(const MapArguments& a, const Globals& globals) {
   if (a.log.empty() || a.output.empty()) {
     throw InputError("loopmark map needs LOG and -o RUN, or --resume RUN (see: loopmark map --help)");
   }
-  return start_map(a.log, a.truth, a.output, globals.options());
+  return start_map(a.log, a.truth, a.output, globals, globals.options());
 }
 
 int map(const MapArguments& a, const Globals& globals) {
-  const MapOutcome outcome = a.resume.empty() ? start(a, globals) : resume_map(a.resume);
+  const MapOutcome outcome = a.resume.empty() ? start(a, globals) : resume_map(a.resume, globals);
   const std::filesystem::path run = a.resume.empty() ? a.output : a.resume;
   std::printf("%s is whole:\n%s", run.c_str(), closing_table(outcome).c_str());
   std::printf("  map           %s\n  trajectory    %s\n  report        %s\n", (run / "map.bt").c_str(),

@@ -13,29 +13,48 @@ namespace {
 std::filesystem::path job_file(const RunFolder& folder) { return folder / "records/job.json"; }
 
 void write_job(const RunFolder& folder, const MapJob& job, const AppOptions& options) {
-  const nlohmann::ordered_json json = {{"log", job.log.string()}, {"truth", job.truth.string()}};
+  const nlohmann::ordered_json json = {
+      {"log", job.log.string()}, {"truth", job.truth.string()}, {"arguments", job.arguments}, {"resumed", job.resumed}};
   write_file_atomically(folder / "config.yaml", options_as_yaml(options));
   write_file_atomically(job_file(folder), json.dump(1) + "\n");
+}
+
+MapJob read_job(const RunFolder& folder) {
+  const nlohmann::json json = nlohmann::json::parse(read_file(job_file(folder)));
+  return {json.at("log").get<std::string>(), json.at("truth").get<std::string>(),
+          json.value("arguments", std::vector<std::string>{}),
+          json.value("resumed", std::vector<std::vector<std::string>>{})};
 }
 
 }  // namespace
 
 MapOutcome start_map(const std::filesystem::path& log, const std::filesystem::path& truth,
-                     const std::filesystem::path& run, const AppOptions& options) {
+                     const std::filesystem::path& run, const Globals& globals, const AppOptions& options) {
   if (!std::filesystem::exists(log)) {
     throw InputError(log.string(), "", "there is no such log", "give a folder of scans or a rawlog");
   }
-  const MapJob job{std::filesystem::absolute(log), truth.empty() ? truth : std::filesystem::absolute(truth)};
+  const MapJob job{std::filesystem::absolute(log), truth.empty() ? truth : std::filesystem::absolute(truth),
+                   globals.arguments};
   const RunFolder folder = RunFolder::create(run);
-  write_job(folder, job, options);
-  return run_map(folder, job, options);
+  try {
+    write_job(folder, job, options);
+    return run_map(folder, job, options);
+  } catch (...) {
+    if (!std::filesystem::exists(folder.scan_records())) {  // there is nothing yet that could be resumed
+      std::error_code ignored;
+      std::filesystem::remove_all(folder.path(), ignored);
+    }
+    throw;
+  }
 }
 
-MapOutcome resume_map(const std::filesystem::path& run) {
+MapOutcome resume_map(const std::filesystem::path& run, const Globals& globals) {
   const RunFolder folder = RunFolder::resume(run);
   const AppOptions options = config::load<AppOptions>(folder / "config.yaml", {});
-  const nlohmann::json json = nlohmann::json::parse(read_file(job_file(folder)));
-  return run_map(folder, {json.at("log").get<std::string>(), json.at("truth").get<std::string>()}, options);
+  MapJob job = read_job(folder);
+  job.resumed.push_back(globals.arguments);
+  write_job(folder, job, options);
+  return run_map(folder, job, options);
 }
 
 }  // namespace loopmark::app

@@ -6,16 +6,15 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <future>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/interrupt.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/drive_log.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/slam/engine_registrar.hpp"
 #include "loopmark/slam/products.hpp"
+#include "map_manifest.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -26,13 +25,14 @@ constexpr std::size_t kCheckpointEvery = 500;  // scans
 struct Read {
   Scan scan;
   std::string problem;
+  std::string input;  ///< for the record of the inputs
 };
 
 Read read_scan(const DriveLog& log, std::size_t index) {
   try {
-    return {log.read(index), ""};
+    return {log.read(index), "", ""};
   } catch (const DamagedScan& damage) {
-    return {{}, damage.what()};
+    return {{}, damage.what(), ""};
   }
 }
 
@@ -63,23 +63,26 @@ void take_in(Mapper& mapper, const DriveLog& log, std::size_t index, const Read&
 }
 
 /// Every scan of the log goes through the mapper; the next one is read meanwhile.
-void feed(Mapper& mapper, const DriveLog& log, MapTimes& times) {
+void feed(Mapper& mapper, const DriveLog& log, InputRecord& inputs, MapTimes& times) {
   Progress progress("scans", log.size());
   progress.add(mapper.scans().size());
   const Stopwatch watch;
   std::future<Read> next;
-  const auto read_ahead = [&](std::size_t index) {
-    return std::async(std::launch::async, [&log, index] { return read_scan(log, index); });
+  const auto read = [&log, &inputs](std::size_t index) {
+    Read result = read_scan(log, index);
+    result.input = inputs.of_scan(index);
+    return result;
   };
   for (std::size_t index = mapper.scans().size(); index < log.size(); ++index) {
     Stopwatch part;
-    const Read read = next.valid() ? next.get() : read_scan(log, index);
+    const Read now = next.valid() ? next.get() : read(index);
     if (index + 1 < log.size()) {
-      next = read_ahead(index + 1);
+      next = std::async(std::launch::async, read, index + 1);
     }
     times.reading += part.seconds();
     part.reset();
-    take_in(mapper, log, index, read);
+    inputs.keep(now.input);
+    take_in(mapper, log, index, now);
     times.odometry += part.seconds();
     progress.add(1, progress_note(mapper, watch.seconds(), mapper.scans().front().stamp_s));
     if (interrupt_requested()) {
@@ -190,13 +193,6 @@ void write_maps(const RunFolder& folder, const std::vector<ScanRecord>& scans, c
   write_mrpt_products(folder, scans, loops, map);
 }
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-  return text;
-}
-
 MapSummary summarize(const std::vector<ScanRecord>& scans, const std::vector<LoopRecord>& loops, const SolvedMap& map,
                      const std::vector<Pose>& truth) {
   MapSummary s;
@@ -233,9 +229,10 @@ Compensation compensation_of(const DriveLog& log, const SlamOptions& options) {
                                                           : Compensation::kRawClockwise;
 }
 
-MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options) {
+namespace {
+
+MapOutcome map_into(RunFolder& folder, const MapJob& job, const AppOptions& options, const std::string& started) {
   const Stopwatch whole;
-  const std::string started = utc_now();
   MapOutcome outcome;
   MapTimes& times = outcome.times;
   const std::unique_ptr<DriveLog> log = open_log(job.log, options.log);
@@ -243,9 +240,10 @@ MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& option
   keep_truth(folder, *log, truth);
   const Compensation compensation = compensation_of(*log, options.slam);
 
+  InputRecord inputs(folder, *log);
   Mapper mapper(folder, {options.odometry, options.slam, options.pose_graph}, engine_registrar(options.registration),
                 compensation, log->info().sweep.value_or(SweepModel{}));
-  feed(mapper, *log, times);
+  feed(mapper, *log, inputs, times);
   if (mapper.keyframes().empty()) {
     throw InputError(job.log.string(), "", "no scan could be used");
   }
@@ -262,9 +260,22 @@ MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& option
   times.whole = whole.seconds();
   write_map_report(folder, mapper.scans(), mapper.loops(), map, outcome.summary, times, truth);
   write_summary(folder, outcome.summary, times);
-  write_manifest(folder, {{"map", job.log.string()}, job.log.string(), "", started, times.whole, 0});
+  write_manifest(folder, manifest_of_map(job, started, times.whole, inputs.finish()));
   folder.finish();
   return outcome;
+}
+
+}  // namespace
+
+MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options) {
+  const Stopwatch whole;
+  const std::string started = utc_now();
+  try {
+    return map_into(folder, job, options, started);
+  } catch (const std::exception& problem) {
+    leave_manifest(folder, manifest_of_map(job, started, whole.seconds()), problem);
+    throw;
+  }
 }
 
 }  // namespace loopmark::app

@@ -20,7 +20,9 @@ namespace loopmark::app {
 /// What `loopmark map` is asked to do; kept in the run folder, so that it can be resumed.
 struct MapJob {
   std::filesystem::path log;
-  std::filesystem::path truth;  ///< trajectory file; empty: what lies beside the scans, if anything
+  std::filesystem::path truth;              ///< trajectory file; empty: what lies beside the scans, if anything
+  std::vector<std::string> arguments = {};  ///< of the process that began
+  std::vector<std::vector<std::string>> resumed = {};  ///< of those that went on
 };
 
 /// Seconds spent in each part of a run by this process.

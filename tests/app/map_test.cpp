@@ -6,74 +6,29 @@
 
 #include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <thread>
 
-#include "loopmark/core/files.hpp"
-#include "loopmark/core/record_file.hpp"
-#include "loopmark/io/point_files.hpp"
-#include "loopmark/io/trajectory.hpp"
+#include "app/sweep_logs.hpp"
 #include "loopmark/slam/trajectory_metrics.hpp"
-#include "support/box_world.hpp"
-#include "support/run_program.hpp"
 
 namespace loopmark::app {
 namespace {
 
 namespace fs = std::filesystem;
+using testing_support::expect_same_products;
+using testing_support::kMapProducts;
 using testing_support::ProgramResult;
 using testing_support::RunningProgram;
 
-constexpr int kScans = 24;
+constexpr int kScans = testing_support::StreetLogs::kScans;
+const testing_support::StreetLogs kLogs{"map_test"};
 
-fs::path scratch(const std::string& name) { return fs::path(testing::TempDir()) / ("loopmark_map_test_" + name); }
+fs::path scratch(const std::string& name) { return kLogs.scratch(name); }
+fs::path make_log(const std::string& name) { return kLogs.make_log(name); }
+fs::path new_run(const std::string& name) { return kLogs.new_run(name); }
 
-/// A log of sweeps with a time for every point, driven at 10 m/s through a gentle curve from the first scan on.
-fs::path make_log(const std::string& name) {
-  const fs::path log = scratch(name);
-  fs::remove_all(log);
-  fs::create_directories(log);
-  const auto world = testing_support::street(120.0, 5);
-  const Vector6d velocity = (Vector6d() << 10.0, 0.0, 0.0, 0.0, 0.0, 0.05).finished();
-  std::vector<double> stamps;
-  std::vector<Pose> poses;
-  for (int i = 0; i < kScans; ++i) {
-    stamps.push_back(0.1 * i);
-    poses.push_back(pose_from_yaw(-0.05, {0.0, 0.0, 1.8}) * exp_se3(0.1 * i * velocity));
-    char file[32];
-    std::snprintf(file, sizeof file, "%06d.pcd", i);
-    write_pcd(log / file, testing_support::sweep(world, poses.back(), velocity, 0.02, static_cast<std::uint64_t>(i)));
-  }
-  std::ofstream times(log / "times.txt");
-  for (const double stamp : stamps) {
-    times << stamp << "\n";
-  }
-  write_kitti(log / "poses.txt", poses);
-  return log;
-}
-
-fs::path new_run(const std::string& name) {
-  const fs::path run = scratch(name);
-  fs::remove_all(run);
-  fs::remove_all(run.string() + ".partial");
-  return run;
-}
-
-ProgramResult map(const fs::path& log, const fs::path& run, std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {"map", log, "-o", run, "-q", "--set", "slam.compensation=raw_given_times"};
-  words.insert(words.end(), more.begin(), more.end());
-  return RunningProgram(words).wait();
-}
-
-const char* const kProducts[] = {"trajectory.tum", "trajectory.kitti", "covariances.csv", "pose_graph.g2o",
-                                 "loops.csv",      "map.bt",           "map.ot",          "cloud.ply",
-                                 "map.simplemap",  "map.3Dscene",      "config.yaml",     "summary.json"};
-
-void expect_same_products(const fs::path& a, const fs::path& b) {
-  for (const char* const product : kProducts) {
-    EXPECT_EQ(sha256_of_file(a / product), sha256_of_file(b / product)) << product;
-  }
+ProgramResult map(const fs::path& log, const fs::path& run, const std::vector<std::string>& more = {}) {
+  return RunningProgram(testing_support::map_words(log, run, more)).wait();
 }
 
 TEST(Map, LeavesAWholeRunAndNeverOverwritesIt) {
@@ -82,7 +37,7 @@ TEST(Map, LeavesAWholeRunAndNeverOverwritesIt) {
   const ProgramResult result = map(log, run);
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_FALSE(fs::exists(run.string() + ".partial"));
-  for (const char* const product : kProducts) {
+  for (const char* const product : kMapProducts) {
     EXPECT_TRUE(fs::exists(run / product)) << product;
   }
   EXPECT_TRUE(fs::exists(run / "manifest.json"));
@@ -112,7 +67,7 @@ TEST(Map, AKilledRunResumesToTheSameBytes) {
   ASSERT_EQ(map(log, expected).exit_code, 0);
   for (const int signal : {SIGINT, SIGKILL}) {
     const fs::path run = new_run("killed" + std::to_string(signal));
-    RunningProgram program({"map", log, "-o", run, "-q", "--set", "slam.compensation=raw_given_times"});
+    RunningProgram program(testing_support::map_words(log, run));
     const fs::path records = run.string() + ".partial/records/scans.rec";
     for (int i = 0; i < 6000 && (!fs::exists(records) || fs::file_size(records) < 4000); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -127,6 +127,22 @@ TEST(DriveLog, KittiRawHasDatesAndRebuiltTimes) {
   EXPECT_NEAR(reading.scan.cloud.time_offset_s[2], 0.025, 1e-6);
 }
 
+TEST(DriveLog, TimesThatDoNotRiseAreReplacedAndSaid) {
+  const TemporaryFolder folder;
+  write_kitti_scans(folder.path(), 8);
+  folder.write("times.txt", "10\n10.1\n10.3\n10.2\n10.4\n10.4\n10.4\n10.7\n");
+  const auto log = open_log(folder.path());
+  EXPECT_THAT(log->info().problem, HasSubstr("3 times do not rise"));
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_NEAR(log->stamp_s(i), 10.0 + 0.1 * static_cast<double>(i), 0.051) << i;
+    EXPECT_TRUE(i == 0 || log->stamp_s(i) > log->stamp_s(i - 1)) << i;
+  }
+  folder.write("times.txt", "5\n5\n5\n5\n5\n5\n5\n5\n");
+  EXPECT_NEAR(open_log(folder.path())->stamp_s(7) - open_log(folder.path())->stamp_s(0), 0.7, 1e-9);
+  folder.write("times.txt", "0\n0.1\n0.2\n0.3\n0.4\n0.5\n0.6\n0.7\n");
+  EXPECT_EQ(open_log(folder.path())->info().problem, "");
+}
+
 TEST(DriveLog, SweepHintsAreUnderstood) {
   const SweepHint hint = parse_sweep_hint("Counter-clockwise, seam at the front; 0.05 s a sweep, motion compensated");
   ASSERT_TRUE(hint.model.has_value());

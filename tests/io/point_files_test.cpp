@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <stdexcept>
 
 #include "io/io_fixtures.hpp"
 #include "loopmark/core/files.hpp"
@@ -42,6 +44,25 @@ TEST(PointFiles, PlyComesBackAsWrittenWithAndWithoutColour) {
   write_ply(folder / "colour.ply", cloud, std::vector<Rgb>(cloud.size(), Rgb{1, 2, 3}));
   expect_equal(read_point_file(folder / "plain.ply").cloud, cloud);
   expect_equal(read_point_file(folder / "colour.ply").cloud, cloud);
+}
+
+TEST(PointFiles, PlyInPartsIsThePlyOfTheWhole) {
+  const TemporaryFolder folder;
+  const PointCloud cloud = random_cloud(500);
+  write_ply(folder / "whole.ply", cloud, std::vector<Rgb>(cloud.size(), Rgb{1, 2, 3}));
+  const auto add_in_parts = [&](const PlyPart& add) {
+    for (std::size_t begin = 0; begin < cloud.size(); begin += 125) {
+      std::vector<std::size_t> indices(125);
+      std::iota(indices.begin(), indices.end(), begin);
+      add(select(cloud, indices), std::vector<Rgb>(125, Rgb{1, 2, 3}));
+    }
+  };
+  write_ply_in_parts(folder / "parts.ply", 500, add_in_parts);
+  EXPECT_EQ(read_file(folder / "parts.ply"), read_file(folder / "whole.ply"));
+  EXPECT_THROW(write_ply_in_parts(folder / "wrong.ply", 499, add_in_parts), std::logic_error);
+  EXPECT_FALSE(fs::exists(folder / "wrong.ply"));
+  write_ply_in_parts(folder / "none.ply", 0, [](const PlyPart&) {});
+  EXPECT_THAT(read_file(folder / "none.ply"), HasSubstr("element vertex 0\n"));
 }
 
 TEST(PointFiles, BinKeepsPointsAndIntensity) {

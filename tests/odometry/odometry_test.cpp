@@ -51,6 +51,22 @@ TEST(Odometry, FollowsADriveThatStartsWhileMoving) {
   EXPECT_LT(error.rotation_deg, 0.4);
 }
 
+TEST(Odometry, StampsThatRepeatAreNoEndOfThePath) {
+  const Drive drive;
+  Odometry odometry({}, Compensation::kCompensated);
+  Pose last;
+  for (std::size_t i = 0; i < 12; ++i) {
+    const Pose pose = drive.pose(0.1 * static_cast<double>(i));
+    const Scan scan{i, i == 7 ? 0.6 : 0.1 * static_cast<double>(i),
+                    testing_support::sweep(drive.world, pose, Vector6d::Zero(), 0.02, i)};
+    const TrackedScan tracked = odometry.track(scan);
+    EXPECT_TRUE(tracked.velocity.allFinite());
+    odometry.commit(tracked);
+    last = tracked.T_map_lidar;
+  }
+  EXPECT_LT(pose_error(last, drive.pose(0.0).inverse() * drive.pose(1.1)).translation_m, 0.12);
+}
+
 TEST(Odometry, TimesGivenOrRebuiltFromTheAzimuthAreTheSame) {
   const Drive drive;
   const PoseError given = error_after(drive, every(0.1, 12), Compensation::kRawGivenTimes);

@@ -36,6 +36,20 @@ TEST(Drive, ToursComeBackInEveryWay) {
   }
 }
 
+TEST(Traffic, NobodyTurnsRoundWithinASweep) {
+  const Drive drive(small_town(), options("tour", 300.0));
+  std::size_t seen = 0;
+  for (double t = 0.0; t < 300.0; t += 0.1) {  // long enough for every walker to turn round
+    for (const MovingBody& body : drive.traffic().bodies(t, t + 0.1, drive.pose(0.0), 1000.0)) {
+      const PoseError moved = pose_error(body.T_world_body_end, body.T_world_body_start);
+      ASSERT_LT(moved.translation_m, 3.0);
+      ASSERT_LT(moved.rotation_deg, 50.0) << "its matrices have no inverse half way";
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 10000U);
+}
+
 TEST(Drive, TwinsRunsAlongBlocksThatLookAlike) {
   const Drive drive(small_town(), options("twins", 500.0));
   std::size_t alike = 0;

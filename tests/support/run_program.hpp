@@ -9,6 +9,7 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,7 +24,9 @@ struct ProgramResult {
 /// A program that runs; killed when it is still running at the end of the scope.
 class RunningProgram {
  public:
-  explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& program = LOOPMARK_BINARY)
+  /// `prepare` runs in the new process before the program does: limits, rights.
+  explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& program = LOOPMARK_BINARY,
+                          const std::function<void()>& prepare = {})
       : output_(std::tmpfile()) {
     std::vector<std::string> words = {program};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -40,6 +43,9 @@ class RunningProgram {
     if (child_ == 0) {
       ::dup2(::fileno(output_), STDOUT_FILENO);
       ::dup2(::fileno(output_), STDERR_FILENO);
+      if (prepare) {
+        prepare();
+      }
       ::execvp(argv[0], argv.data());
       ::_exit(127);
     }

@@ -25,6 +25,7 @@ extern "C" void on_signal(int /*signal*/) {
 void install_interrupt_handler() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, which names the file
 }
 
 bool interrupt_requested() { return requested.load(); }

@@ -28,6 +28,7 @@ class FileLog : public DriveLog {
   std::size_t size() const override { return parts_.files.size(); }
   double stamp_s(std::size_t index) const override { return parts_.stamps_s.at(index); }
   std::string scan_name(std::size_t index) const override { return parts_.files.at(index).string(); }
+  std::filesystem::path scan_file(std::size_t index) const override { return parts_.files.at(index); }
   Scan read(std::size_t index) const override { return read_closely(index).scan; }
   ScanReading read_closely(std::size_t index) const override;
   std::size_t frame_number(std::size_t index) const override { return parts_.frame_numbers.at(index); }

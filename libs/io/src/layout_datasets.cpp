@@ -46,6 +46,7 @@ void take_mulran_truth(FileLogParts& parts, const fs::path& file) {
     poses.push_back(rigid_from_matrix(matrix, 1e-2) * T_base_lidar);
   }
   take_truth_interpolated(parts, stamps, poses, file.string());
+  parts.info.companions.push_back(file);
 }
 
 /// gt_poses.txt: number, stamp, x y z, qx qy qz qw of each scan.
@@ -82,6 +83,7 @@ void take_apollo_truth(FileLogParts& parts, const fs::path& file) {
   parts.info.truth_source = file.string();
   parts.info.stamps_given = true;
   parts.info.stamps_source = file.filename().string();
+  parts.info.companions.push_back(file);
 }
 
 }  // namespace

@@ -94,6 +94,9 @@ LogPointer open_folder(const fs::path& path, const LogOptions& options) {
   parts.info.path = path;
   take_stamps(parts, base / "times.txt");
   take_truth(parts, poses_file(base), read_calibration(base / "calib.txt"));
+  if (fs::is_regular_file(base / "calib.txt", error)) {
+    parts.info.companions.push_back(base / "calib.txt");
+  }
   return std::make_unique<FileLog>(std::move(parts));
 }
 

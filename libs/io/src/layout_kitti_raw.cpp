@@ -72,6 +72,7 @@ void take_oxts(FileLogParts& parts, const fs::path& drive) {
       log(Severity::kWarning, parts.info.truth_problem);
       return;
     }
+    parts.info.companions.push_back(file);
     scale = poses.empty() ? std::cos(rows[0].values[0] * std::numbers::pi / 180.0) : scale;
     poses.push_back(pose_of_oxts(rows[0].values, scale) * T_velo_imu->inverse());
   }

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kLargestFrame = 100'000'000;
+constexpr double kUsualStep_s = 0.1;  // where no two times rise
 
 bool by_name(const fs::path& a, const fs::path& b) {
   return natural_less(a.filename().string(), b.filename().string());
@@ -76,6 +77,10 @@ void stamps_by_names_or_rate(FileLogParts& parts) {
 }
 
 void take_sweep(FileLogParts& parts, const fs::path& base) {
+  std::error_code error;
+  if (fs::is_regular_file(base / "sweep.txt", error)) {
+    parts.info.companions.push_back(base / "sweep.txt");
+  }
   const SweepHint hint = read_sweep_hint(base / "sweep.txt");
   parts.info.motion_compensated = hint.motion_compensated;
   if (parts.options.rebuild_times == RebuildTimes::kNever) {
@@ -90,6 +95,36 @@ void take_sweep(FileLogParts& parts, const fs::path& base) {
     model.period_s = hint.model ? model.period_s : 1.0 / parts.options.rate_hz;
     parts.info.sweep = model;
   }
+}
+
+/// Places of a longest strictly rising subsequence (patience sorting).
+std::vector<std::size_t> longest_rise(const std::vector<double>& values) {
+  std::vector<std::size_t> ends;  // of the rises of each length, the place of the lowest last value
+  std::vector<std::size_t> before(values.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto at = std::lower_bound(ends.begin(), ends.end(), values[i],
+                                     [&](std::size_t end, double value) { return values[end] < value; });
+    before[i] = at == ends.begin() ? values.size() : *(at - 1);
+    if (at == ends.end()) {
+      ends.push_back(i);
+    } else if (values[i] < values[*at]) {
+      *at = i;
+    }
+  }
+  std::vector<std::size_t> rise;
+  for (std::size_t i = ends.empty() ? values.size() : ends.back(); i < values.size(); i = before[i]) {
+    rise.push_back(i);
+  }
+  std::reverse(rise.begin(), rise.end());
+  return rise;
+}
+
+std::size_t first_missing(const std::vector<std::size_t>& places) {
+  std::size_t i = 0;
+  while (i < places.size() && places[i] == i) {
+    ++i;
+  }
+  return i;
 }
 
 double stamp_of_line(std::string_view line, const fs::path& file, std::size_t number) {
@@ -192,8 +227,41 @@ void take_stamps(FileLogParts& parts, const fs::path& file) {
   for (std::size_t i = 0; i < rows->size(); ++i) {
     parts.stamps_s[i] = stamps[(*rows)[i]];
   }
+  parts.info.problem = mend_times(parts.stamps_s, file);
+  parts.info.companions.push_back(file);
   parts.info.stamps_given = true;
   parts.info.stamps_source = file.filename().string();
+}
+
+std::string mend_times(std::vector<double>& stamps_s, const fs::path& file) {
+  const std::vector<std::size_t> kept = longest_rise(stamps_s);
+  if (kept.size() == stamps_s.size()) {
+    return "";
+  }
+  const std::size_t first = first_missing(kept);
+  const double step_s = kept.size() > 1 ? (stamps_s[kept.back()] - stamps_s[kept.front()]) /
+                                              static_cast<double>(kept.back() - kept.front())
+                                        : kUsualStep_s;
+  std::size_t next = 0;  // of the kept ones, the first that is not before the scan
+  for (std::size_t i = 0; i < stamps_s.size(); ++i) {
+    next += next < kept.size() && kept[next] < i ? 1 : 0;
+    if (next < kept.size() && kept[next] == i) {
+      continue;
+    }
+    if (next == 0) {
+      stamps_s[i] = stamps_s[kept[0]] - step_s * static_cast<double>(kept[0] - i);
+    } else if (next == kept.size()) {
+      stamps_s[i] = stamps_s[i - 1] + step_s;
+    } else {
+      stamps_s[i] =
+          stamps_s[i - 1] + (stamps_s[kept[next]] - stamps_s[i - 1]) / static_cast<double>(kept[next] - i + 1);
+    }
+  }
+  const std::string problem = std::to_string(stamps_s.size() - kept.size()) +
+                              " times do not rise with the scans, the first is that of scan " + std::to_string(first) +
+                              "; times between those of their neighbours are taken instead";
+  log(Severity::kWarning, file.string() + ": " + problem);
+  return problem;
 }
 
 void take_truth(FileLogParts& parts, const fs::path& file, const std::optional<Pose>& T_camera_lidar) {
@@ -215,6 +283,7 @@ void take_truth(FileLogParts& parts, const fs::path& file, const std::optional<P
   }
   parts.info.truth_given = true;
   parts.info.truth_source = file.string();
+  parts.info.companions.push_back(file);
 }
 
 void take_truth_interpolated(FileLogParts& parts, const std::vector<double>& stamps_s, const std::vector<Pose>& poses,

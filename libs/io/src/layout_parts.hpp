@@ -30,6 +30,10 @@ FileLogParts parts_of_files(std::vector<std::filesystem::path> files, const std:
 /// there is one. Throws InputError when its length fits neither the scans nor their numbers.
 void take_stamps(FileLogParts& parts, const std::filesystem::path& file);
 
+/// Replaces times that repeat or go back (all but a longest rising subsequence) by times between their neighbours'.
+/// Returns what was wrong and warns of it; empty when nothing is.
+std::string mend_times(std::vector<double>& stamps_s, const std::filesystem::path& file);
+
 /// Takes reference poses (one a scan) when the file is there; lengths that do not fit become truth_problem and
 /// a warning. `to_lidar` makes a T_world_lidar of each pose.
 void take_truth(FileLogParts& parts, const std::filesystem::path& file,

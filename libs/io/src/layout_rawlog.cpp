@@ -44,11 +44,14 @@ class RawlogLog : public DriveLog {
     for (std::size_t i = 0; i < reader_.size(); ++i) {
       parts.stamps_s.push_back(reader_.stamp_s(i));
     }
+    const std::string times_problem = mend_times(parts.stamps_s, file);
     if (!reader_.truth().poses.empty()) {
       take_truth_interpolated(parts, reader_.truth().stamps_s, reader_.truth().poses, file.string());
     }
     truth_ = std::move(parts.truth);
+    stamps_s_ = std::move(parts.stamps_s);
     info_ = std::move(parts.info);
+    info_.problem = times_problem;
     info_.format = "rawlog";
     info_.path = file;
     info_.stamps_given = true;
@@ -60,8 +63,9 @@ class RawlogLog : public DriveLog {
   }
 
   std::size_t size() const override { return reader_.size(); }
-  double stamp_s(std::size_t index) const override { return reader_.stamp_s(index); }
+  double stamp_s(std::size_t index) const override { return stamps_s_.at(index); }
   std::string scan_name(std::size_t index) const override { return info_.path.string() + ":" + reader_.place(index); }
+  fs::path scan_file(std::size_t) const override { return info_.path; }
   Scan read(std::size_t index) const override { return read_closely(index).scan; }
   const LogInfo& info() const override { return info_; }
   std::vector<Pose> truth() const override { return truth_; }
@@ -85,6 +89,7 @@ class RawlogLog : public DriveLog {
   RawlogReader reader_;
   LogOptions options_;
   LogInfo info_;
+  std::vector<double> stamps_s_;
   std::vector<Pose> truth_;
 };
 

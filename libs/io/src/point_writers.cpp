@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <bit>
+#include <stdexcept>
 #include <string>
 
 #include "loopmark/core/files.hpp"
@@ -60,14 +61,27 @@ std::string pcd_header(const PointCloud& cloud) {
          count + "\nWIDTH " + points + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA binary\n";
 }
 
-std::string ply_header(const PointCloud& cloud, bool coloured) {
-  std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(cloud.size()) + "\n";
+/// For `count` points with the channels of `cloud`.
+std::string ply_header(std::size_t count, const PointCloud& cloud, bool coloured) {
+  std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) + "\n";
   header += "property float x\nproperty float y\nproperty float z\n";
   header += cloud.intensity.empty() ? "" : "property float intensity\n";
   header += cloud.ring.empty() ? "" : "property ushort ring\n";
   header += cloud.time_offset_s.empty() ? "" : "property float t\n";
   header += coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "";
   return header + "end_header\n";
+}
+
+Bytes ply_bytes(const PointCloud& cloud, const std::vector<Rgb>& colours) {
+  Bytes bytes(cloud.size() * 24);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    bytes.add_point(cloud.points[i]);
+    add_channels(bytes, cloud, i);
+    if (!colours.empty()) {
+      bytes.add(colours[i]);
+    }
+  }
+  return bytes;
 }
 
 void write(const std::filesystem::path& path, const std::string& header, const Bytes& bytes) {
@@ -95,15 +109,31 @@ void write_pcd(const std::filesystem::path& path, const PointCloud& cloud) {
 }
 
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud, const std::vector<Rgb>& colours) {
-  Bytes bytes(cloud.size() * 24);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    bytes.add_point(cloud.points[i]);
-    add_channels(bytes, cloud, i);
-    if (!colours.empty()) {
-      bytes.add(colours[i]);
+  write_ply_in_parts(path, cloud.size(), [&](const PlyPart& add) { add(cloud, colours); });
+}
+
+void write_ply_in_parts(const std::filesystem::path& path, std::size_t count,
+                        const std::function<void(const PlyPart&)>& fill) {
+  write_file_atomically(path, [&](std::ostream& stream) {
+    std::size_t written = 0;
+    bool begun = false;
+    const auto add = [&](const PointCloud& cloud, const std::vector<Rgb>& colours) {
+      if (!begun) {
+        stream << ply_header(count, cloud, !colours.empty());
+        begun = true;
+      }
+      written += cloud.size();
+      stream << ply_bytes(cloud, colours).text();
+    };
+    fill(add);
+    if (!begun) {
+      stream << ply_header(0, {}, false);
     }
-  }
-  write(path, ply_header(cloud, !colours.empty()), bytes);
+    if (written != count) {
+      throw std::logic_error("write_ply_in_parts: " + std::to_string(written) + " points instead of " +
+                             std::to_string(count));
+    }
+  });
 }
 
 }  // namespace loopmark

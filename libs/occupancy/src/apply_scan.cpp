@@ -56,7 +56,7 @@ std::vector<Touched> touched_blocks(const ScanVoxels& voxels, TileStore& store) 
           const Key key = box.corner + Eigen::Vector3i(x + 8 * b, y, z);
           const Eigen::Vector3i at = key / kTileVoxels;
           if (held == nullptr || at != held_at) {
-            held = &store.tile(at);
+            held = &store.at(tile_number(at));
             held_at = at;
           }
           const Eigen::Vector3i in = (key - at * kTileVoxels) / kBlockVoxels;

@@ -26,7 +26,7 @@ class Tile {
  public:
   /// The block at block coordinates in [0, 16), made when it is not there. References stay valid.
   Block& block(int x, int y, int z);
-  std::size_t block_count() const { return blocks_.size(); }
+  std::size_t weight() const { return blocks_.size(); }  ///< blocks
 
   /// The pruned subtree in preorder, as OctoMap's .ot stores it: a float and the mask of children for each node.
   std::string to_bytes() const;

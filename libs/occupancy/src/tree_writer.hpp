@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scratch_file.hpp"
+#include "loopmark/core/scratch_file.hpp"
 
 namespace loopmark::occupancy {
 

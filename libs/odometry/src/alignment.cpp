@@ -25,6 +25,7 @@ struct NormalEquations {
   double squares = 0.0;                  // of the inliers' distances
   std::size_t inliers = 0;
   std::size_t matches = 0;
+  std::size_t left_out = 0;  // ground that says nothing
 
   NormalEquations& operator+=(const NormalEquations& other) {
     H += other.H;
@@ -33,6 +34,7 @@ struct NormalEquations {
     squares += other.squares;
     inliers += other.inliers;
     matches += other.matches;
+    left_out += other.left_out;
     return *this;
   }
 };
@@ -43,16 +45,21 @@ struct Kernel {
   double point_weight;
 };
 
+/// Ground counts across its plane only: along it lie the rings of the sensor, which go where the sensor goes.
 void add_match(NormalEquations& sums, const Eigen::Vector3d& lever, const Eigen::Vector3d& error,
-               const Eigen::Vector3d& normal, const Kernel& kernel) {
-  ++sums.matches;
+               const Eigen::Vector3d& normal, const Kernel& kernel, bool ground) {
   const bool plane = !normal.isZero(0.0);
+  if (ground && !plane) {
+    ++sums.left_out;
+    return;
+  }
+  ++sums.matches;
   const double across = plane ? normal.dot(error) : error.norm();
   const double share = kernel.scale_m / (kernel.scale_m + across * across / kernel.scale_m);
   const double robust = share * share;  // Geman-McClure
   Eigen::Matrix<double, 3, 6> J;
   J << Eigen::Matrix3d::Identity(), -hat(lever);
-  const double along_weight = robust * (plane ? kernel.point_weight : kNoPlaneWeight);
+  const double along_weight = ground ? 0.0 : robust * (plane ? kernel.point_weight : kNoPlaneWeight);
   sums.H.noalias() += along_weight * J.transpose() * J;
   sums.b.noalias() += along_weight * J.transpose() * error;
   const bool inlier = std::abs(across) < kernel.inlier_m;
@@ -70,22 +77,30 @@ void add_match(NormalEquations& sums, const Eigen::Vector3d& lever, const Eigen:
   }
 }
 
-NormalEquations linearize(const std::vector<Eigen::Vector3f>& keypoints, const LocalMap& map, const Pose& T,
-                          double threshold_m, const Kernel& kernel) {
+NormalEquations linearize(const Keypoints& keypoints, const LocalMap& map, const Pose& T, double threshold_m,
+                          const Kernel& kernel) {
   const auto map_block = [&](std::size_t begin, std::size_t end) {
     NormalEquations sums;
     MapMatch match;
     for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d lever = T.linear() * keypoints[i].cast<double>();
+      const Eigen::Vector3d lever = T.linear() * keypoints.points[i].cast<double>();
       const Eigen::Vector3d point = lever + T.translation();
       if (map.nearest(point, threshold_m, match)) {
-        add_match(sums, lever, point - match.point, match.normal, kernel);
+        add_match(sums, lever, point - match.point, match.normal, kernel, keypoints.is_ground(i));
       }
     }
     return sums;
   };
-  return parallel_reduce_ordered(keypoints.size(), kBlock, NormalEquations{}, map_block,
+  return parallel_reduce_ordered(keypoints.points.size(), kBlock, NormalEquations{}, map_block,
                                  [](NormalEquations& total, const NormalEquations& part) { total += part; });
+}
+
+/// Where nothing holds the translation, the start does.
+void hold(NormalEquations& sums, const Pose& T, const Pose& T_start) {
+  constexpr double kShare = 1e-3;  // of the weight of the matches
+  const double weight = kShare * static_cast<double>(sums.matches);
+  sums.H.diagonal().head<3>().array() += weight;
+  sums.b.head<3>() += weight * (T.translation() - T_start.translation());
 }
 
 void step(Pose& T, const Vector6d& xi) {
@@ -144,8 +159,8 @@ Health judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T, 
 
 }  // namespace
 
-Alignment align(const std::vector<Eigen::Vector3f>& keypoints, const LocalMap& map, const Pose& T_map_lidar,
-                double threshold_m, const OdometryOptions& options) {
+Alignment align(const Keypoints& keypoints, const LocalMap& map, const Pose& T_map_lidar, double threshold_m,
+                const OdometryOptions& options) {
   Alignment result{T_map_lidar, {}};
   const double inlier_m = kInlierVoxels * map.voxel_m();
   const Kernel kernel{std::max(threshold_m / 3.0, inlier_m), inlier_m, options.point_weight};
@@ -157,11 +172,14 @@ Alignment align(const std::vector<Eigen::Vector3f>& keypoints, const LocalMap& m
     if (sums.inliers < 6) {
       break;
     }
+    if (!keypoints.ground.empty()) {
+      hold(sums, result.T_map_lidar, T_map_lidar);
+    }
     const Vector6d xi = -sums.H.ldlt().solve(sums.b);
     step(result.T_map_lidar, xi);
     converged = xi.norm() < kConverged;
   }
-  result.health = judge(sums, keypoints.size(), result.T_map_lidar, options);
+  result.health = judge(sums, keypoints.points.size() - sums.left_out, result.T_map_lidar, options);
   result.health.iterations = iteration;
   result.health.converged = converged;
   return result;

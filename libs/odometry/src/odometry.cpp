@@ -7,7 +7,7 @@
 
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/parallel.hpp"
-#include "loopmark/odometry/alignment.hpp"
+#include "loopmark/features/ground.hpp"
 
 namespace loopmark {
 namespace {
@@ -82,7 +82,7 @@ void check(const OdometryOptions& o) {
 }
 
 Odometry::Odometry(const OdometryOptions& options, Compensation compensation, const SweepModel& sweep)
-    : options_(options), compensation_(compensation), sweep_(sweep) {
+    : options_(options), compensation_(compensation), sweep_(sweep), last_gap_s_(sweep.period_s) {
   check(options_);
   sweep_.clockwise = compensation != Compensation::kRawCounterClockwise;
 }
@@ -126,8 +126,14 @@ std::vector<Eigen::Vector3f> Odometry::deskewed_sample(const TrackedScan& tracke
                    : tracked.sample.points;
 }
 
-std::vector<Odometry::Start> Odometry::starts(double stamp_s) const {
+/// Seconds since the last scan. Stamps that repeat or go back say nothing: then it was as long as before.
+double Odometry::gap_to(double stamp_s) const {
   const double gap_s = stamp_s - last_->stamp_s;
+  return gap_s > 0.0 ? gap_s : last_gap_s_;
+}
+
+std::vector<Odometry::Start> Odometry::starts(double stamp_s) const {
+  const double gap_s = gap_to(stamp_s);
   const auto after = [&](double share) {
     return Start{last_->T_map_lidar * exp_se3(share * gap_s * last_->velocity), share * last_->velocity};
   };
@@ -143,16 +149,15 @@ std::vector<Odometry::Start> Odometry::starts(double stamp_s) const {
 std::vector<Odometry::Start> Odometry::wide_starts(double stamp_s) const {
   constexpr double kFastest = 35.0;  // m/s
   constexpr int kTurns = 24;
-  const double gap_s = stamp_s - last_->stamp_s;
+  const double gap_s = gap_to(stamp_s);
   std::vector<Start> result = starts(stamp_s);
   const auto add = [&](const Pose& T_last_lidar) {
-    const Vector6d velocity = gap_s > 0.0 ? Vector6d(log_se3(T_last_lidar) / gap_s) : Vector6d::Zero();
-    result.push_back({last_->T_map_lidar * T_last_lidar, velocity});
+    result.push_back({last_->T_map_lidar * T_last_lidar, log_se3(T_last_lidar) / gap_s});
   };
   for (int turn = 0; turn < kTurns; ++turn) {
     add(pose_from_yaw(2.0 * M_PI * turn / kTurns));
   }
-  for (const double distance : {2.0, 4.0, 7.0, 10.0, 14.0}) {
+  for (const double distance : {0.7, 1.4, 2.1, 2.8, 3.5, 5.0, 7.0, 10.0, 14.0}) {
     if (distance <= kFastest * gap_s) {
       for (int quarter = 0; quarter < 4; ++quarter) {
         const double heading = quarter * M_PI / 2.0;
@@ -170,24 +175,25 @@ void Odometry::align_from(TrackedScan& tracked, const Start& start, double thres
 void Odometry::align_to(const LocalMap& map, TrackedScan& tracked, const Start& start, double threshold_m) const {
   tracked.T_map_lidar = start.T_map_lidar;
   tracked.velocity = start.velocity;
-  const double gap_s = tracked.stamp_s - last_->stamp_s;
+  const double gap_s = gap_to(tracked.stamp_s);
   const int rounds = deskews() ? 2 : 1;  // the second with the velocity that the first has found
   for (int round = 0; round < rounds; ++round) {
     const Alignment found = align(keypoints(tracked, options_.keypoint_voxels * map.voxel_m()), map,
                                   tracked.T_map_lidar, threshold_m, options_);
     tracked.T_map_lidar = found.T_map_lidar;
     tracked.health = found.health;
-    if (gap_s > 0.0) {
-      tracked.velocity = log_se3(last_->T_map_lidar.inverse() * tracked.T_map_lidar) / gap_s;
-    }
+    tracked.velocity = log_se3(last_->T_map_lidar.inverse() * tracked.T_map_lidar) / gap_s;
   }
 }
 
-std::vector<Eigen::Vector3f> Odometry::keypoints(const TrackedScan& tracked, double cell_m) const {
+Keypoints Odometry::keypoints(const TrackedScan& tracked, double cell_m) const {
   const std::vector<Eigen::Vector3f> points = deskewed_sample(tracked);
-  std::vector<Eigen::Vector3f> result;
+  Keypoints result;
   for (const std::size_t i : voxel_first_indices(points, cell_m)) {
-    result.push_back(points[i]);
+    result.points.push_back(points[i]);
+  }
+  if (committed_ == 1) {  // before any motion is known, rings on the ground must not say that there is none
+    result.ground = ground_points(result.points, {});
   }
   return result;
 }
@@ -197,7 +203,7 @@ std::vector<Odometry::Start> Odometry::shortlist(const TrackedScan& prepared, co
   constexpr std::size_t kKept = 4;
   OdometryOptions quick = options_;
   quick.max_iterations = 12;
-  const std::vector<Eigen::Vector3f> points = keypoints(prepared, coarse_->voxel_m());
+  const Keypoints points = keypoints(prepared, coarse_->voxel_m());
   std::vector<Alignment> found(starts.size());
   parallel_for(starts.size(), [&](std::size_t i) {
     found[i] = align(points, *coarse_, starts[i].T_map_lidar, coarse_->voxel_m(), quick);
@@ -237,7 +243,7 @@ TrackedScan Odometry::track(const Scan& scan) const {
     tracked.health.keypoints = tracked.sample.size();
     return tracked;
   }
-  const double threshold_m = threshold(tracked.stamp_s - last_->stamp_s);
+  const double threshold_m = threshold(gap_to(tracked.stamp_s));
   TrackedScan near = best_of(tracked, starts(scan.stamp_s), threshold_m);
   if (committed_ > 1 && near.health.tracking != Tracking::kLost) {
     return near;
@@ -289,12 +295,8 @@ TrackedScan Odometry::track_from(const Scan& scan, const Pose& T_map_lidar) cons
     tracked.T_map_lidar = T_map_lidar;
     return tracked;
   }
-  const double gap_s = scan.stamp_s - last_->stamp_s;
-  Start start{T_map_lidar, Vector6d::Zero()};
-  if (gap_s > 0.0) {
-    start.velocity = log_se3(last_->T_map_lidar.inverse() * T_map_lidar) / gap_s;
-  }
-  align_from(tracked, start, map_->voxel_m());
+  const Vector6d velocity = log_se3(last_->T_map_lidar.inverse() * T_map_lidar) / gap_to(scan.stamp_s);
+  align_from(tracked, {T_map_lidar, velocity}, map_->voxel_m());
   judge(tracked);
   return tracked;
 }
@@ -310,7 +312,7 @@ void Odometry::align_to_deskewed_first(TrackedScan& answer) const {
 }
 
 void Odometry::judge(TrackedScan& tracked) const {
-  const double gap_s = tracked.stamp_s - last_->stamp_s;
+  const double gap_s = gap_to(tracked.stamp_s);
   const Vector6d change = tracked.velocity - last_->velocity;
   Health& health = tracked.health;
   health.tracking = health.degenerate_directions.empty() ? Tracking::kGood : Tracking::kDegenerate;
@@ -319,8 +321,7 @@ void Odometry::judge(TrackedScan& tracked) const {
   if (doubtful && health.margin < options_.min_margin) {
     health.tracking = Tracking::kLost;
     health.reason = "few points fit the map, and elsewhere hardly fewer";
-  } else if (committed_ > 1 && gap_s > 0.0 &&
-             change.head<3>().norm() > options_.max_acceleration * std::max(gap_s, 0.1)) {
+  } else if (committed_ > 1 && change.head<3>().norm() > options_.max_acceleration * std::max(gap_s, 0.1)) {
     health.tracking = Tracking::kLost;
     health.reason = "the motion jumps";
   }
@@ -334,7 +335,9 @@ void Odometry::commit(const TrackedScan& tracked) {
     swept_at_ = tracked.T_map_lidar.translation();
   }
   if (last_) {
-    const Pose predicted = last_->T_map_lidar * exp_se3((tracked.stamp_s - last_->stamp_s) * last_->velocity);
+    const double gap_s = gap_to(tracked.stamp_s);
+    const Pose predicted = last_->T_map_lidar * exp_se3(gap_s * last_->velocity);
+    last_gap_s_ = gap_s;
     if (committed_ > 1) {
       deviations_.push_back(deviation_m(predicted, tracked.T_map_lidar));
     }
@@ -375,6 +378,7 @@ void Odometry::restart(const Pose& T_map_lidar) {
   coarse_.reset();
   last_.reset();
   deviations_.clear();
+  last_gap_s_ = sweep_.period_s;
   committed_ = 0;
 }
 

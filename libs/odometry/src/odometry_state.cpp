@@ -36,6 +36,7 @@ std::string Odometry::state() const {
   ByteWriter writer;
   write_pose(writer, origin_);
   writer.value(committed_);
+  writer.value(last_gap_s_);
   writer.vector(std::vector<double>(deviations_.begin(), deviations_.end()));
   writer.raw(swept_at_.data(), 3);
   writer.value(last_.has_value());
@@ -65,6 +66,7 @@ void Odometry::set_state(const std::string& bytes) {
   ByteReader reader(content);
   restart(read_pose(reader));
   committed_ = reader.value<std::size_t>();
+  last_gap_s_ = reader.value<double>();
   const auto deviations = reader.vector<double>();
   deviations_.assign(deviations.begin(), deviations.end());
   reader.raw(swept_at_.data(), 3);

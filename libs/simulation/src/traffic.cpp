@@ -42,6 +42,9 @@ LanePath sidewalk(const RoadEdge& edge, int index, double side) {
   return path;
 }
 
+/// Between two poses a body is drawn by interpolated matrices, which are none half way round.
+constexpr double kLargestTurnDeg = 45.0;
+
 }  // namespace
 
 Traffic::Traffic(const Town& town, const ShapeList& shapes, const TrafficOptions& options, std::uint64_t seed)
@@ -86,8 +89,9 @@ std::vector<MovingBody> Traffic::bodies(double begin_s, double end_s, const Pose
   for (const Actor& actor : actors_) {
     const Pose start = pose(actor, begin_s);
     Pose end = pose(actor, end_s);
-    if ((end.translation() - start.translation()).norm() > 20.0 * (end_s - begin_s) + 1.0) {
-      end = start;  // it has just started over
+    const PoseError moved = pose_error(end, start);
+    if (moved.translation_m > 20.0 * (end_s - begin_s) + 1.0 || moved.rotation_deg > kLargestTurnDeg) {
+      end = start;  // it has just started over, or turned round
     }
     const Eigen::Vector3d seen = T_world_ego.inverse() * start.translation();
     const bool touches = std::abs(seen.x()) < kEgoLength + 1.0 && std::abs(seen.y()) < kEgoWidth;

@@ -123,7 +123,8 @@ LoopCloser::LoopCloser(const RunFolder& folder, const SlamOptions& options, cons
 bool LoopCloser::may_join(const Keyframe& source, const Keyframe& target) const {
   return source.piece != target.piece
              ? !scope_.may_join || scope_.may_join(source.number, target.number)
-             : !scope_.may_join && std::abs(source.path_m - target.path_m) > options_.loop_gap_m;
+             : !scope_.may_join && (source.path_m < target.path_m ? comes_back(source, target, options_.loop_gap_m)
+                                                                  : comes_back(target, source, options_.loop_gap_m));
 }
 
 /// Places that look alike, and for the first keyframes of a piece the last ones of the pieces before.

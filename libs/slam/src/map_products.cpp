@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "keyframe_files.hpp"
-#include "loopmark/cloud/voxel.hpp"
+#include "loopmark/cloud/thin_cloud.hpp"
+#include "loopmark/core/error.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/mrpt_bridge/map_export.hpp"
 #include "loopmark/occupancy/occupancy_map.hpp"
@@ -14,6 +15,8 @@ namespace loopmark {
 namespace {
 
 constexpr std::size_t kMain = 0;
+constexpr double kSceneVoxel_m = 0.5;
+constexpr std::size_t kScenePoints = 1'000'000;  // more make voxels larger: the scene is to be looked at, and held
 
 std::vector<std::size_t> keyframes_in(const SolvedMap& map, std::size_t component) {
   std::vector<std::size_t> result;
@@ -34,52 +37,90 @@ Rgb height_colour(float z) {
   return {channel(2.0F * ratio - 0.5F), channel(1.4F - std::abs(2.8F * ratio - 1.2F)), channel(1.3F - 2.2F * ratio)};
 }
 
-/// The points of one component in the map's frame, one a voxel.
-PointCloud joined(const RunFolder& folder, const SolvedMap& map, std::size_t component, double voxel_m) {
-  constexpr std::size_t kThinEvery = 20;
-  PointCloud cloud;
-  std::size_t added = 0;
-  for (const std::size_t number : keyframes_in(map, component)) {
-    const PointCloud moved = transformed(read_keyframe_cloud(folder, number), map.T_map_keyframe[number]);
-    if (cloud.empty()) {
-      cloud = moved;
-    } else {
-      append(cloud, moved);
-    }
-    if (++added % kThinEvery == 0) {
-      cloud = voxel_downsampled(cloud, voxel_m);
-    }
-  }
-  return voxel_downsampled(cloud, voxel_m);
+PointCloud in_map(const RunFolder& folder, const SolvedMap& map, std::size_t number) {
+  return transformed(read_keyframe_cloud(folder, number), map.T_map_keyframe[number]);
 }
 
-std::vector<Rgb> colours(const PointCloud& cloud) {
-  std::vector<Rgb> result(cloud.size());
-  std::transform(cloud.points.begin(), cloud.points.end(), result.begin(),
+std::vector<Rgb> colours(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<Rgb> result(points.size());
+  std::transform(points.begin(), points.end(), result.begin(),
                  [](const Eigen::Vector3f& p) { return height_colour(p.z()); });
   return result;
 }
 
+/// What MRPT's SceneViewer3D shows of the first component, whose keyframes are `numbers`.
+SceneContent scene_of(const RunFolder& folder, const std::vector<ScanRecord>& scans,
+                      const std::vector<LoopRecord>& loops, const SolvedMap& map,
+                      const std::vector<std::size_t>& numbers) {
+  SceneContent scene;
+  std::vector<std::size_t> place_of_scan(scans.size(), 0);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (map.component[i] == kMain) {
+      place_of_scan[i] = scene.trajectory.size();
+      scene.trajectory.push_back(map.T_map_scan[i]);
+    }
+  }
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const std::size_t source = map.keyframes[loops[i].source].scan;
+    const std::size_t target = map.keyframes[loops[i].target].scan;
+    if (map.loops[i].accepted && map.component[source] == kMain && map.component[target] == kMain) {
+      scene.loops.push_back({place_of_scan[source], place_of_scan[target]});
+    }
+  }
+  OverviewCloud cloud(kSceneVoxel_m, kScenePoints);
+  for (const std::size_t number : numbers) {
+    cloud.add(in_map(folder, map, number).points);
+  }
+  scene.points = cloud.points();
+  scene.colours = colours(scene.points);
+  return scene;
+}
+
+/// A folder of the run for what waits on the disk; what a killed run may have left in it is gone.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const RunFolder& folder) : path_(folder / "records/scratch") {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+    std::filesystem::create_directory(path_, error);
+    if (error) {
+      throw InputError(path_.string(), "", "cannot be made: " + error.message(), "check the disk's space");
+    }
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 }  // namespace
 
 OccupancyStatistics write_occupancy(const RunFolder& folder, const SolvedMap& map, const OccupancyOptions& options) {
-  const std::filesystem::path scratch = folder / "records/scratch";
-  std::filesystem::remove_all(scratch);  // what a killed run may have left
-  std::filesystem::create_directory(scratch);
-  OccupancyMapBuilder builder(options, scratch);
+  const ScratchFolder scratch(folder);
+  OccupancyMapBuilder builder(options, scratch.path());
   for (const std::size_t number : keyframes_in(map, kMain)) {
     builder.insert(read_keyframe_cloud(folder, number).points, map.T_map_keyframe[number]);
   }
-  const OccupancyStatistics statistics = builder.write(folder / "map.bt", folder / "map.ot");
-  std::filesystem::remove_all(scratch);
-  return statistics;
+  return builder.write(folder / "map.bt", folder / "map.ot");
 }
 
 void write_clouds(const RunFolder& folder, const SolvedMap& map, double voxel_m) {
+  const ScratchFolder scratch(folder);
   for (std::size_t component = 0; component < map.components; ++component) {
-    const PointCloud cloud = joined(folder, map, component, voxel_m);
+    TiledCloud cloud(voxel_m, scratch.path() / "cloud");
+    for (const std::size_t number : keyframes_in(map, component)) {
+      cloud.add(in_map(folder, map, number));
+    }
     const std::string file = component == kMain ? "cloud.ply" : "component_" + std::to_string(component) + ".ply";
-    write_ply(folder / file, cloud, colours(cloud));
+    write_ply_in_parts(folder / file, cloud.size(), [&](const PlyPart& add) {
+      cloud.for_each_tile([&](const PointCloud& tile) { add(tile, colours(tile.points)); });
+    });
   }
 }
 
@@ -92,28 +133,7 @@ void write_mrpt_products(const RunFolder& folder, const std::vector<ScanRecord>&
     return SimpleMapKeyframe{map.T_map_keyframe[numbers[i]], map.covariance[keyframe.scan],
                              Scan{scan.scan, scan.stamp_s, read_keyframe_cloud(folder, numbers[i])}};
   });
-  constexpr double kSceneVoxel = 0.5;
-  SceneContent scene;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (map.component[i] == kMain) {
-      scene.trajectory.push_back(map.T_map_scan[i]);
-    }
-  }
-  std::vector<std::size_t> place_of_scan(scans.size(), 0);
-  for (std::size_t i = 0, place = 0; i < scans.size(); ++i) {
-    place_of_scan[i] = map.component[i] == kMain ? place++ : 0;
-  }
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    const std::size_t source = map.keyframes[loops[i].source].scan;
-    const std::size_t target = map.keyframes[loops[i].target].scan;
-    if (map.loops[i].accepted && map.component[source] == kMain && map.component[target] == kMain) {
-      scene.loops.push_back({place_of_scan[source], place_of_scan[target]});
-    }
-  }
-  const PointCloud cloud = joined(folder, map, kMain, kSceneVoxel);
-  scene.points = cloud.points;
-  scene.colours = colours(cloud);
-  write_scene(folder / "map.3Dscene", scene);
+  write_scene(folder / "map.3Dscene", scene_of(folder, scans, loops, map, numbers));
 }
 
 }  // namespace loopmark

@@ -16,6 +16,7 @@ namespace loopmark {
 namespace {
 
 constexpr std::size_t kLeastPoints = 100;  // of a scan that can be used, after thinning
+constexpr double kWorthAgreeing = 0.3;     // P(correct) of an answer that another one may confirm
 
 std::filesystem::path state_file(const RunFolder& folder) { return folder / "records/odometry.state"; }
 
@@ -59,7 +60,8 @@ bool registers(const Registrar& registrar, const RunFolder& folder, const std::v
       break;
     }
     const RegistrationResult result = registrar.align(source, read_file(folder.keyframe(keyframe.number, "prepared")));
-    if (result.answered && enough(keyframe.T_piece_lidar * result.T_target_source, result.p_correct)) {
+    const bool worth = result.answered || result.p_correct >= kWorthAgreeing;
+    if (worth && enough(keyframe.T_piece_lidar * result.T_target_source, result.p_correct)) {
       return true;
     }
   }
@@ -205,7 +207,8 @@ void Mapper::start_piece(const Scan& scan, const std::string& problem, Placed& p
   ++piece_;
 }
 
-/// Global registration to the latest keyframes of the piece: two answers that agree, or a sure one where the piece has
+/// Global registration to the latest keyframes of the piece: two answers that agree, even if neither is sure by itself
+/// (what deceives a registration moves along with the sensor, and so says different places for different keyframes), or a sure one where the piece has
 /// no second keyframe.
 bool Mapper::recover(const Scan& scan, Placed& placed) const {
   if (!registrar_) {

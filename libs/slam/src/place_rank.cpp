@@ -11,7 +11,7 @@ std::optional<PlaceRank> place_rank(const RunFolder& run, const std::vector<Keyf
                                     std::size_t target, double loop_gap_m) {
   const auto apart = [&](std::size_t earlier) {
     return keyframes[earlier].piece != keyframes[source].piece ||
-           keyframes[source].path_m - keyframes[earlier].path_m > loop_gap_m;
+           comes_back(keyframes[earlier], keyframes[source], loop_gap_m);
   };
   if (!apart(target)) {
     return std::nullopt;

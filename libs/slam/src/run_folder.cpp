@@ -43,6 +43,8 @@ RunFolder RunFolder::create(const fs::path& run) {
     fs::create_directories(path / "keyframes", error);
   }
   if (error) {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
     throw InputError(path.string(), "", "cannot be made: " + error.message(),
                      "choose a folder that can be written for -o");
   }

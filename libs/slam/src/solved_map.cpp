@@ -181,6 +181,13 @@ void DrivenPath::add(const ScanRecord& scan, std::vector<Keyframe>& keyframes) {
   }
 }
 
+bool comes_back(const Keyframe& earlier, const Keyframe& later, double gap_m) {
+  constexpr double kDetour = 4.0;
+  const double driven_m = later.path_m - earlier.path_m;
+  const double apart_m = (later.T_piece_lidar.translation() - earlier.T_piece_lidar.translation()).norm();
+  return driven_m > gap_m || (driven_m > 0.5 * gap_m && driven_m > kDetour * apart_m);
+}
+
 std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans) {
   std::vector<Keyframe> keyframes;
   DrivenPath path;

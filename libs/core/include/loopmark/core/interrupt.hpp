@@ -4,7 +4,8 @@
 
 namespace loopmark {
 
-/// Makes SIGINT and SIGTERM set a flag instead of ending the process; a second one ends it at once.
+/// Makes SIGINT and SIGTERM set a flag instead of ending the process; a second one ends it at once. A limit on the size
+/// of files (SIGXFSZ) becomes an error of writing.
 void install_interrupt_handler();
 
 /// True once the user has asked to stop.

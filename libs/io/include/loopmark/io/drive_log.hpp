@@ -32,8 +32,9 @@ struct LogInfo {
   std::string truth_source;    ///< the file of the reference poses
   std::string truth_problem;   ///< why poses that lie there are not used; empty when all is well
   std::string problem;         ///< what is wrong with the log as a whole (a truncated rawlog); empty when nothing is
-  std::optional<SweepModel> sweep;         ///< how the points' times are rebuilt where the log has none
-  std::optional<bool> motion_compensated;  ///< what the log itself says, not measured
+  std::vector<std::filesystem::path> companions;  ///< files beside the scans that were read: times, poses, calibration
+  std::optional<SweepModel> sweep;                ///< how the points' times are rebuilt where the log has none
+  std::optional<bool> motion_compensated;         ///< what the log itself says, not measured
 };
 
 /// Points that a reader left out, by reason.
@@ -59,6 +60,8 @@ class DriveLog {
   virtual double stamp_s(std::size_t index) const = 0;
   /// The scan's file or place in the log, for messages.
   virtual std::string scan_name(std::size_t index) const = 0;
+  /// The file that holds the scan; a rawlog holds them all. Empty where there is none.
+  virtual std::filesystem::path scan_file(std::size_t /*index*/) const { return {}; }
   /// Reads scan `index`. Throws DamagedScan naming the file, the place and the problem.
   virtual Scan read(std::size_t index) const = 0;
   /// The same with what reading it showed.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -37,5 +38,13 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 /// Writes a binary little-endian PLY with the channels that the cloud has; `colours` is empty or as long.
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud, const std::vector<Rgb>& colours = {});
+
+/// Takes a part of a cloud with its colours.
+using PlyPart = std::function<void(const PointCloud&, const std::vector<Rgb>&)>;
+
+/// The same for `count` points that never are in memory together: `fill` hands over one part after the other, all with
+/// the channels of the first, and colours or none like it.
+void write_ply_in_parts(const std::filesystem::path& path, std::size_t count,
+                        const std::function<void(const PlyPart& add)>& fill);
 
 }  // namespace loopmark

@@ -10,6 +10,7 @@
 
 #include "loopmark/cloud/deskew.hpp"
 #include "loopmark/core/point_cloud.hpp"
+#include "loopmark/odometry/alignment.hpp"
 #include "loopmark/odometry/health.hpp"
 #include "loopmark/odometry/local_map.hpp"
 #include "loopmark/odometry/options.hpp"
@@ -67,12 +68,13 @@ class Odometry {
   TrackedScan best_of(const TrackedScan& prepared, const std::vector<Start>& starts, double threshold_m) const;
   TrackedScan best_of_wide(const TrackedScan& prepared, const TrackedScan& near) const;
   std::vector<Start> shortlist(const TrackedScan& prepared, const std::vector<Start>& starts) const;
-  std::vector<Eigen::Vector3f> keypoints(const TrackedScan& tracked, double cell_m) const;
+  Keypoints keypoints(const TrackedScan& tracked, double cell_m) const;
   void align_from(TrackedScan& tracked, const Start& start, double threshold_m) const;
   void align_to(const LocalMap& map, TrackedScan& tracked, const Start& start, double threshold_m) const;
   void align_to_deskewed_first(TrackedScan& answer) const;
   std::vector<float> times(const PointCloud& cloud) const;
   std::vector<Eigen::Vector3f> deskewed_sample(const TrackedScan& tracked) const;
+  double gap_to(double stamp_s) const;
   double threshold(double gap_s) const;
   void judge(TrackedScan& tracked) const;
   void grow(const TrackedScan& tracked);
@@ -85,6 +87,7 @@ class Odometry {
   std::optional<LocalMap> coarse_;  ///< the same in larger voxels, to search further
   Pose origin_ = Pose::Identity();
   std::optional<TrackedScan> last_;
+  double last_gap_s_ = 0.1;  ///< between the last two scans
   std::size_t committed_ = 0;
   std::deque<double> deviations_;                       ///< metres by which the motion model missed, latest last
   Eigen::Vector3d swept_at_ = Eigen::Vector3d::Zero();  ///< where the map was last pruned

@@ -3,6 +3,7 @@
 /// What a run leaves behind for people and programs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -26,22 +27,31 @@ OccupancyStatistics write_occupancy(const RunFolder& folder, const SolvedMap& ma
 /// pieces that found no place in it.
 void write_clouds(const RunFolder& folder, const SolvedMap& map, double voxel_m);
 
-/// map.simplemap and map.3Dscene for MRPT's tools: the first component.
+/// map.simplemap and map.3Dscene for MRPT's tools: the first component. The scene shows one point a voxel of 0.5 m, of
+/// larger voxels where these would be over a million.
 void write_mrpt_products(const RunFolder& folder, const std::vector<ScanRecord>& scans,
                          const std::vector<LoopRecord>& loops, const SolvedMap& map);
 
 /// What stands in manifest.json besides the outputs' hashes.
 struct Manifest {
-  std::vector<std::string> arguments;
-  std::string log;           ///< path of the input
-  std::string input_sha256;  ///< over the number of points and the CRC-32 of every scan as it was read
-  std::string started;       ///< ISO 8601, UTC
-  double seconds = 0.0;      ///< of this process
+  std::vector<std::string> arguments;  ///< of the program, but its name
+  std::string log;                     ///< path of the input
+  std::string input_sha256;            ///< of records/inputs.sha256, which has a line of sha256sum for each file read
+  std::string started;                 ///< ISO 8601, UTC
+  double seconds = 0.0;                ///< of this process
   int exit_status = 0;
   std::map<std::string, std::string> known_sha256 = {};  ///< of files known not to have changed, by path in the run
+  std::size_t input_files = 0;                           ///< lines of records/inputs.sha256
+  std::uint64_t input_bytes = 0;                         ///< of those files
+  std::vector<std::vector<std::string>> resumed = {};    ///< arguments of the processes that went on with the run
+  std::string problem = {};                              ///< why the run ended before it was whole
 };
 
-/// manifest.json: version, arguments, times, exit status, and the SHA-256 of every file of the run but itself.
+/// The input as the manifest of another run names it: log, input_sha256, input_files, input_bytes. Throws InputError.
+Manifest input_of_manifest(const RunFolder& folder);
+
+/// manifest.json: version, arguments, times, exit status, and the SHA-256 of every file of the run but itself. Of a run
+/// that has a problem the files are not whole, and their hashes are left out.
 void write_manifest(const RunFolder& folder, const Manifest& manifest);
 
 }  // namespace loopmark

@@ -41,6 +41,10 @@ class DrivenPath {
 /// The keyframes that the scan records name, in order.
 std::vector<Keyframe> keyframes_of(const std::vector<ScanRecord>& scans);
 
+/// Whether the drive has come back from `earlier` to `later`, keyframes of one piece: it went on for `gap_m`, or half
+/// of that on a way that is several times as long as the line between them (a turn within a hall, or round a block).
+bool comes_back(const Keyframe& earlier, const Keyframe& later, double gap_m);
+
 /// What became of a loop candidate.
 struct LoopVerdict {
   bool accepted = false;

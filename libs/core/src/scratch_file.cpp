@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scratch_file.hpp"
+#include "loopmark/core/scratch_file.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -8,7 +8,7 @@
 
 #include "loopmark/core/error.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark {
 
 ScratchFile::ScratchFile(std::filesystem::path path)
     : path_(std::move(path)), stream_(path_, std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc) {
@@ -46,4 +46,4 @@ std::string ScratchFile::read(const Extent& extent) {
   return bytes;
 }
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark

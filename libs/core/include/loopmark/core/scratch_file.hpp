@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-namespace loopmark::occupancy {
+namespace loopmark {
 
 /// A place in a scratch file.
 struct Extent {
@@ -33,4 +33,4 @@ class ScratchFile {
   std::uint64_t end_ = 0;
 };
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "input_record.hpp"
+#include "loopmark/slam/products.hpp"
+#include "map_run.hpp"
+
+namespace loopmark::app {
+
+/// manifest.json of a run of `loopmark map`.
+Manifest manifest_of_map(const MapJob& job, const std::string& started, double seconds, const InputSummary& input = {});
+
+/// Leaves in the partial run why it ended and with which exit status, if that can still be written.
+void leave_manifest(const RunFolder& folder, Manifest manifest, const std::exception& problem);
+
+}  // namespace loopmark::app
