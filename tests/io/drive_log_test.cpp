@@ -134,7 +134,7 @@ TEST(DriveLog, TimesThatDoNotRiseAreReplacedAndSaid) {
   const auto log = open_log(folder.path());
   EXPECT_THAT(log->info().problem, HasSubstr("3 times do not rise"));
   for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_NEAR(log->stamp_s(i), 10.0 + 0.1 * static_cast<double>(i), 0.051) << i;
+    EXPECT_NEAR(log->stamp_s(i), 10.0 + 0.1 * static_cast<double>(i), 0.101) << i;  // one of two that are swapped stays
     EXPECT_TRUE(i == 0 || log->stamp_s(i) > log->stamp_s(i - 1)) << i;
   }
   folder.write("times.txt", "5\n5\n5\n5\n5\n5\n5\n5\n");
