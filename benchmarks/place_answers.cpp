@@ -80,8 +80,11 @@ PointCloud deskewed_scan(const DriveLog& log, const std::vector<Pose>& truth, st
 void write_answers(std::ofstream& out, std::size_t scan, const std::vector<PlaceAnswer>& answers,
                    const Reference& reference, const Nearness& near) {
   const std::vector<double> p = probabilities(answers);
+  PlaceBeliefs beliefs({});
+  beliefs.add(answers, Pose::Identity());
+  const bool given = beliefs.decided() && beliefs.best()->p >= RelocalizationOptions().min_p_correct;
   if (answers.empty()) {
-    out << scan << ' ' << near.keyframe_m << ' ' << near.overlap << " 1000 180 0 -20\n";
+    out << scan << ' ' << near.keyframe_m << ' ' << near.overlap << " 1000 180 0 -20 0\n";
   }
   for (std::size_t i = 0; i < answers.size(); ++i) {
     PoseError error{1000.0, 180.0};
@@ -89,7 +92,7 @@ void write_answers(std::ofstream& out, std::size_t scan, const std::vector<Place
       error = reference.map.error(answers[i].T_map_lidar, reference.query[scan]);
     }
     out << scan << ' ' << near.keyframe_m << ' ' << near.overlap << ' ' << error.translation_m << ' '
-        << error.rotation_deg << ' ' << p[i] << ' ' << answers[i].log_odds;
+        << error.rotation_deg << ' ' << p[i] << ' ' << answers[i].log_odds << ' ' << (given && i == 0 ? 1 : 0);
     for (const auto& [name, value] : answers[i].evidence) {
       out << ' ' << name << '=' << value;
     }

@@ -11,7 +11,8 @@ real: the last 20 scans of balm_loop against a map of the first 80 (right within
 a map of the even ones, its last third against a map of the first two thirds (0.6 m); judged by the logs' poses.txt.
 simulated: day 1 (HDL-64E) is mapped; queries of day 2 (other parked cars) driven in the left lane, the other way, with an
 HDL-32E, with an OS1-64 the other way, and of another town. What is in WORK already is taken as it is.
-A pose is given when P(correct) >= 0.5 and no other place is more than a quarter as probable; right within 5 deg.
+A pose is given when P(correct) >= 0.5, no other answer is more than a quarter as probable, and the scan fits no other place
+(log-odds 2); right within 5 deg. table tells what the same answers come to.
 """
 import argparse
 import json
@@ -21,7 +22,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-MIN_P, MIN_LEAD, RIGHT_DEG, MAPPED_M, MIN_OVERLAP = 0.5, 4.0, 5.0, 10.0, 0.3
+RIGHT_DEG, MAPPED_M, MIN_OVERLAP = 5.0, 10.0, 0.3
 
 
 def wilson(part, whole, z=1.959963984540054):
@@ -40,20 +41,15 @@ def share(part, whole):
 
 
 def read_answers(file):
-    """Answers by scan, the most probable first: dicts of keyframe_m, overlap, error_m, error_deg, p."""
+    """Answers by scan, the most probable first: dicts of keyframe_m, overlap, error_m, error_deg, p, log_odds, given."""
     scans = {}
     for line in open(file):
         scan, *rest = line.split()
-        keys = ("keyframe_m", "overlap", "error_m", "error_deg", "p", "log_odds")
-        scans.setdefault(int(scan), []).append(dict(zip(keys, map(float, rest[:6]))))
+        keys = ("keyframe_m", "overlap", "error_m", "error_deg", "p", "log_odds", "given")
+        scans.setdefault(int(scan), []).append(dict(zip(keys, map(float, rest[:7]))))
     for answers in scans.values():
         answers.sort(key=lambda a: -a["p"])
     return scans
-
-
-def given(answers):
-    lead = len(answers) < 2 or answers[0]["p"] >= MIN_LEAD * answers[1]["p"]
-    return answers[0]["p"] >= MIN_P and lead
 
 
 def row(name, file, metres):
@@ -61,8 +57,8 @@ def row(name, file, metres):
     right = lambda a: a["error_m"] < metres and a["error_deg"] < RIGHT_DEG
     mapped = [a for a in scans.values() if a[0]["keyframe_m"] < MAPPED_M or a[0]["overlap"] >= MIN_OVERLAP]
     found = sum(any(right(a) for a in answers) for answers in mapped)
-    good = sum(given(a) and right(a[0]) for a in mapped)
-    wrong = sum(given(a) and not right(a[0]) for a in scans.values())
+    good = sum(a[0]["given"] > 0 and right(a[0]) for a in mapped)
+    wrong = sum(a[0]["given"] > 0 and not right(a[0]) for a in scans.values())
     return (f"{name:24} recall {share(good, len(mapped)):40} wrong {share(wrong, len(scans)):36} "
             f"among the answers {share(found, len(mapped))}")
 

@@ -21,7 +21,7 @@ RIGHT_M, RIGHT_DEG = 0.6, 5.0
 def load(file):
     scans = {}
     for line in open(file):
-        scan, _, _, error_m, error_deg, _, _, *evidence = line.split()
+        scan, _, _, error_m, error_deg, _, _, _, *evidence = line.split()
         entry = scans.setdefault(scan, {"x": [], "right": []})
         if not evidence:
             continue

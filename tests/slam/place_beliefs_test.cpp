@@ -41,8 +41,26 @@ TEST(PlaceBeliefs, ALeaderThatHardlyLeadsIsNotDecided) {
   EXPECT_GT(beliefs.best()->p, RelocalizationOptions().min_p_correct);
   EXPECT_FALSE(beliefs.decided());
   PlaceBeliefs clear({});
-  clear.add({answer(10.0, 0.99), answer(300.0, 0.9)}, moved(0.0));
-  EXPECT_TRUE(clear.decided()) << "99 : 9 : 1";
+  clear.add({answer(10.0, 0.99), answer(300.0, 0.85)}, moved(0.0));
+  EXPECT_TRUE(clear.decided()) << "99 : 6 : 1";
+}
+
+TEST(PlaceBeliefs, APlaceThatTheLatestScanFitsIsARivalHoweverFarBehind) {
+  const auto fits = [](double x, const Pose& here, double log_odds) {
+    return PlaceAnswer{answer(x, 0.5).T_map_lidar * here, Matrix6d::Identity(), log_odds};
+  };
+  PlaceBeliefs beliefs({});
+  beliefs.add({fits(10.0, moved(0.0), 8.0), fits(300.0, moved(0.0), 4.0)}, moved(0.0));
+  EXPECT_GT(beliefs.best()->p, 0.95);
+  EXPECT_FALSE(beliefs.decided()) << "both places fit";
+  beliefs.add({fits(10.0, moved(5.0), 3.0), fits(300.0, moved(5.0), -3.0)}, moved(5.0));
+  EXPECT_TRUE(beliefs.decided()) << "the other one does not fit any more";
+  beliefs.add({fits(10.0, moved(9.0), -0.5)}, moved(9.0));
+  EXPECT_FALSE(beliefs.decided()) << "now it does not fit itself";
+
+  PlaceBeliefs beside({});
+  beside.add({fits(10.0, moved(0.0), 8.0), fits(12.0, moved(0.0), 4.0)}, moved(0.0));
+  EXPECT_TRUE(beside.decided()) << "2 m apart they are one place: the lead decides";
 }
 
 TEST(PlaceBeliefs, TwoAlikePlacesStayUndecidedHoweverOftenBothAreSeen) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -72,7 +73,7 @@ class TellingMap final : public PlaceMap {
     if (places > 0) {
       return answers;
     }
-    return {PlaceAnswer{believed.front(), Matrix6d::Identity(), verdict}};
+    return {PlaceAnswer{correction * believed.front(), Matrix6d::Identity(), verdict}};
   }
   std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const override {
     std::vector<Eigen::Vector3d> near;
@@ -85,7 +86,8 @@ class TellingMap final : public PlaceMap {
   }
 
   std::vector<PlaceAnswer> answers;
-  double verdict = 2.0;  ///< log-odds of whatever pose is believed
+  double verdict = 2.0;                ///< log-odds of whatever pose is believed,
+  Pose correction = Pose::Identity();  ///< which is moved by this
   mutable int searches = 0;
   mutable int verifications = 0;
 
@@ -139,6 +141,19 @@ TEST_F(RelocalizerTest, GivesUpWhatRegistrationContradicts) {
                 (answer.state == RelocalizationState::kLost && !answer.answered && !answer.reason.empty()));
   }
   EXPECT_TRUE(given_up);
+}
+
+TEST_F(RelocalizerTest, TakesThePoseOfRegistrationWhereNearestPointsEndElsewhere) {
+  drive_to(0.0, 0.95);
+  map_->correction = pose_from_yaw(0.0, {0.8, 0.0, 0.0});
+  double largest = 0.0;
+  for (double x = 1.0; x < 8.0; x += 1.0) {
+    const RelocalizedScan answer = drive_to(x, 0.0);
+    ASSERT_EQ(answer.state, RelocalizationState::kTracking);
+    largest = std::max(largest, pose_error(answer.T_map_lidar, truth_).translation_m);
+  }
+  EXPECT_NEAR(largest, 0.8, 0.15) << "the scan that was verified";
+  EXPECT_GT(map_->verifications, 0);
 }
 
 TEST_F(RelocalizerTest, APlaceToldFromOutsideIsTrackedWithoutASearch) {

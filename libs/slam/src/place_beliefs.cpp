@@ -9,7 +9,11 @@ namespace loopmark {
 namespace {
 
 constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
-constexpr double kForgotten = -4.0;  ///< log-odds below which a place is dropped
+constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
+constexpr double kElsewhereDeg = 20.0;
+constexpr double kRivalLogOdds = 2.0;  ///< of a scan at another place: both are possible
+constexpr double kUnconfirmed = -5.0;  ///< log-odds that stand for a scan that does not confirm a place
+constexpr double kForgotten = -4.0;    ///< log-odds below which a place is dropped
 
 }  // namespace
 
@@ -35,6 +39,7 @@ bool PlaceBeliefs::same(const Pose& a, const Pose& b) const {
 }
 
 void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_odometry_lidar) {
+  latest_ = T_odometry_lidar;
   std::vector<PlaceAnswer> ranked = answers;
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });
@@ -46,7 +51,8 @@ void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_od
     };
     const auto found = std::find_if(beliefs_.begin(), beliefs_.end(), says_the_same);
     if (found == beliefs_.end()) {
-      beliefs_.push_back({answer.T_map_lidar * T_odometry_lidar.inverse(), answer.covariance, answer.log_odds, 0.0});
+      beliefs_.push_back(
+          {answer.T_map_lidar * T_odometry_lidar.inverse(), answer.covariance, answer.log_odds, answer.log_odds, 0.0});
       continue;
     }
     const auto place = static_cast<std::size_t>(found - beliefs_.begin());
@@ -56,11 +62,15 @@ void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_od
         found->T_map_odometry = answer.T_map_lidar * T_odometry_lidar.inverse();
         found->covariance = answer.covariance;
       }
+      found->latest = answer.log_odds;
       found->log_odds += options_.repeat_weight * answer.log_odds;
     }
   }
   for (std::size_t place = 0; place < known; ++place) {
-    beliefs_[place].log_odds += confirmed[place] ? 0.0 : std::log(options_.miss_odds);
+    if (!confirmed[place]) {
+      beliefs_[place].log_odds += std::log(options_.miss_odds);
+      beliefs_[place].latest = kUnconfirmed;
+    }
   }
   normalise();
 }
@@ -88,7 +98,15 @@ std::optional<PlaceBelief> PlaceBeliefs::best() const {
 }
 
 bool PlaceBeliefs::decided() const {
-  return !beliefs_.empty() && (beliefs_.size() == 1 || beliefs_[0].p >= options_.min_lead * beliefs_[1].p);
+  if (beliefs_.empty() || beliefs_.front().latest < 0.0) {
+    return false;
+  }
+  const PlaceBelief& best = beliefs_.front();
+  return std::none_of(beliefs_.begin() + 1, beliefs_.end(), [&](const PlaceBelief& other) {
+    const PoseError apart = pose_error(other.T_map_odometry * latest_, best.T_map_odometry * latest_);
+    const bool elsewhere = apart.translation_m > kElsewhereM || apart.rotation_deg > kElsewhereDeg;
+    return best.p < options_.min_lead * other.p || (elsewhere && other.latest >= kRivalLogOdds);
+  });
 }
 
 }  // namespace loopmark

@@ -7,115 +7,25 @@
 #include <optional>
 #include <utility>
 
-#include "loopmark/cloud/voxel.hpp"
-#include "loopmark/odometry/alignment.hpp"
+#include "relocalizer_state.hpp"
 #include "sweep_motion.hpp"
 
 namespace loopmark {
 namespace {
 
 constexpr std::size_t kLeastPoints = 100;  ///< of a scan that can be used
-constexpr std::size_t kBelieved = 4;       ///< places that another scan is asked about, whatever it looks like itself
 constexpr double kMisfitOdds = 1.5;        ///< taken from the log-odds of a place by a scan that does not fit the map
 constexpr double kMostOfOneScan = 4.0;     ///< log-odds that one verification may add or take
 constexpr double kMaxLogOdds = 9.0;
 constexpr double kWorthCorrecting = -2.0;  ///< log-odds of an answer to a distorted scan
 constexpr double kToldLogOdds = 3.0;       ///< of a pose that was told from outside
 constexpr double kGapS = 0.3;              ///< a longer gap between two scans is a reason to verify
-constexpr double kUsualMemory = 0.9;       ///< of the usual share of fitting keypoints, a scan
+constexpr double kDisagreementM = 0.3;  ///< between map and own motion in one scan, or nearest points and registration
+constexpr double kUsualMemory = 0.9;    ///< of the usual share of fitting keypoints, a scan
 
 double probability(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 }  // namespace
-
-const char* name(RelocalizationState state) {
-  switch (state) {
-    case RelocalizationState::kSearching:
-      return "searching";
-    case RelocalizationState::kTracking:
-      return "tracking";
-    case RelocalizationState::kLost:
-      break;
-  }
-  return "lost";
-}
-
-void check(const RelocalizationOptions& o) {
-  require_option(o.places >= 1, "places", "must be at least 1");
-  require_option(o.place_radius_m > 0.0, "place_radius_m", "must be positive");
-  require_option(o.min_p_correct > 0.0 && o.min_p_correct < 1.0, "min_p_correct", "must be above 0, below 1");
-  require_option(o.min_lead >= 1.0, "min_lead", "must be at least 1");
-  require_option(o.tracking_p >= o.min_p_correct && o.tracking_p < 1.0, "tracking_p", "must be min_p_correct to 1");
-  require_option(o.same_place_m > 0.0 && o.same_place_deg > 0.0, "same_place_m", "must be positive");
-  require_option(o.miss_odds > 0.0 && o.miss_odds <= 1.0, "miss_odds", "must be above 0, at most 1");
-  require_option(o.map_radius_m > 0.0, "map_radius_m", "must be positive");
-  require_option(o.lost_after >= 1, "lost_after", "must be at least 1");
-  require_option(o.verify_every_m > 0.0, "verify_every_m", "must be positive");
-  require_option(o.max_gap_s > 0.0, "max_gap_s", "must be positive");
-}
-
-struct Relocalizer::State {
-  State(std::shared_ptr<const PlaceMap> m, const RelocalizationOptions& o, const OdometryOptions& odometry_o,
-        Compensation compensation, const SweepModel& sweep)
-      : map(std::move(m)),
-        options(o),
-        odometry_options(odometry_o),
-        odometry(odometry_o, compensation, sweep),
-        beliefs(o) {}
-
-  std::shared_ptr<const PlaceMap> map;
-  RelocalizationOptions options;
-  OdometryOptions odometry_options;
-  Odometry odometry;
-  std::size_t committed = 0;  ///< scans since the motion began or was lost
-  std::optional<double> last_stamp_s;
-  double gap_s = 0.0;  ///< before this scan
-  std::optional<Pose> told;
-
-  PlaceBeliefs beliefs;             ///< while searching
-  std::optional<Pose> searched_at;  ///< T_odometry_lidar of the scan that was registered last
-
-  bool tracking = false;
-  Pose T_map_odometry = Pose::Identity();
-  double log_odds = 0.0;
-  std::size_t misfits = 0;          ///< in a row
-  double usual_share = 0.0;         ///< of keypoints that fit the map; 0: not known yet
-  std::optional<Pose> verified_at;  ///< T_odometry_lidar of the scan that was verified last
-  std::optional<LocalMap> around;   ///< the map around the sensor
-  Eigen::Vector3d around_at = Eigen::Vector3d::Zero();
-
-  void renew_surroundings(const Eigen::Vector3d& position);
-  std::vector<Pose> believed(const Pose& T_odometry_lidar) const;
-  Alignment align_to_map(const PointCloud& cloud, const Pose& predicted);
-};
-
-void Relocalizer::State::renew_surroundings(const Eigen::Vector3d& position) {
-  if (around && (position - around_at).norm() < options.map_radius_m / 3.0) {
-    return;
-  }
-  around.emplace(odometry.map()->voxel_m(), odometry_options.points_per_voxel);
-  around->insert(map->points_around(position, options.map_radius_m));
-  around_at = position;
-}
-
-std::vector<Pose> Relocalizer::State::believed(const Pose& T_odometry_lidar) const {
-  std::vector<Pose> poses;
-  for (const PlaceBelief& belief : beliefs.all()) {
-    if (poses.size() < kBelieved) {
-      poses.push_back(belief.T_map_odometry * T_odometry_lidar);
-    }
-  }
-  return poses;
-}
-
-Alignment Relocalizer::State::align_to_map(const PointCloud& cloud, const Pose& predicted) {
-  renew_surroundings(predicted.translation());
-  std::vector<Eigen::Vector3f> keypoints;
-  for (const std::size_t i : voxel_first_indices(cloud.points, odometry_options.keypoint_voxels * around->voxel_m())) {
-    keypoints.push_back(cloud.points[i]);
-  }
-  return align(keypoints, *around, predicted, around->voxel_m(), odometry_options);
-}
 
 Relocalizer::Relocalizer(std::shared_ptr<const PlaceMap> map, const RelocalizationOptions& options,
                          const OdometryOptions& odometry_options, Compensation compensation, const SweepModel& sweep) {
@@ -197,6 +107,10 @@ Vector6d Relocalizer::correct_first_scan(const Scan& scan, const TrackedScan& tr
   const bool better = !again.empty() && again.front().log_odds >= best.log_odds;
   best.T_map_lidar = better ? again.front().T_map_lidar : found->T_map_lidar;
   best.log_odds = better ? again.front().log_odds : best.log_odds;
+  TrackedScan moving = tracked;  // so that the next scan is expected where this motion leads
+  moving.velocity = found->velocity;
+  s.odometry.restart(tracked.T_map_lidar);
+  s.odometry.commit(moving);
   return found->velocity;
 }
 
@@ -253,17 +167,19 @@ void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, Relocalize
   const double share = found.health.inlier_share;
   const bool fits = share >= s.options.min_inlier_share && jump.translation_m <= s.options.max_jump_m &&
                     jump.rotation_deg <= s.options.same_place_deg;
-  const bool doubtful = share < s.options.doubt_share * s.usual_share || s.gap_s > kGapS;
+  const bool doubtful =
+      share < s.options.doubt_share * s.usual_share || s.gap_s > kGapS || jump.translation_m > kDisagreementM;
+  Pose T_map_lidar = fits ? found.T_map_lidar : predicted;
   answer.inlier_share = share;
   if (fits) {
     const bool due = !s.verified_at ||
                      (s.verified_at->inverse() * tracked.T_map_lidar).translation().norm() >= s.options.verify_every_m;
     if (due || doubtful) {
-      verify(scan, tracked, found.T_map_lidar);
+      T_map_lidar = verified(scan, tracked, found.T_map_lidar);
     }
     s.misfits = 0;
     s.usual_share = s.usual_share == 0.0 ? share : kUsualMemory * s.usual_share + (1.0 - kUsualMemory) * share;
-    s.T_map_odometry = found.T_map_lidar * tracked.T_map_lidar.inverse();
+    s.T_map_odometry = T_map_lidar * tracked.T_map_lidar.inverse();
   } else {
     ++s.misfits;
     s.log_odds -= kMisfitOdds;
@@ -276,23 +192,28 @@ void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, Relocalize
   answer.state = RelocalizationState::kTracking;
   answer.answered = fits;
   answer.reason = fits ? answer.reason : "the scan does not fit the map";
-  answer.T_map_lidar = fits ? found.T_map_lidar : predicted;
+  answer.T_map_lidar = T_map_lidar;
   const Matrix6d to_map = adjoint(answer.T_map_lidar);
   answer.covariance = to_map * found.health.covariance * to_map.transpose();
 }
 
 /// One more piece of evidence for or against the place, from beams and structure rather than from nearest points.
-void Relocalizer::verify(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar) {
+/// Returns the pose, or that of registration where both are of one place but apart.
+Pose Relocalizer::verified(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar) {
   State& s = *state_;
   s.verified_at = tracked.T_map_lidar;
   double found = -kMostOfOneScan;
+  Pose better = T_map_lidar;
   for (const PlaceAnswer& answer : s.map->search(s.odometry.deskewed_cloud(scan, tracked.velocity), 0, {T_map_lidar})) {
     const PoseError off = pose_error(answer.T_map_lidar, T_map_lidar);
-    if (off.translation_m < s.options.same_place_m && off.rotation_deg < s.options.same_place_deg) {
-      found = std::max(found, std::min(answer.log_odds, kMostOfOneScan));
+    if (off.translation_m < s.options.same_place_m && off.rotation_deg < s.options.same_place_deg &&
+        answer.log_odds > found) {
+      found = std::min(answer.log_odds, kMostOfOneScan);
+      better = found > 0.0 && off.translation_m > kDisagreementM ? answer.T_map_lidar : T_map_lidar;
     }
   }
   s.log_odds = std::min(s.log_odds + s.options.repeat_weight * found, kMaxLogOdds);
+  return better;
 }
 
 void Relocalizer::lose(const std::string& reason, RelocalizedScan& answer) {

@@ -28,6 +28,7 @@ struct PlaceBelief {
   Pose T_map_odometry = Pose::Identity();
   Matrix6d covariance = Matrix6d::Identity();  ///< of the latest answer
   double log_odds = 0.0;                       ///< against "none of these"
+  double latest = 0.0;                         ///< what the latest scan alone said: log-odds against "none of these"
   double p = 0.0;                              ///< among all beliefs and "none of these"
 };
 
@@ -44,7 +45,9 @@ class PlaceBeliefs {
   /// The most probable place, or nothing.
   std::optional<PlaceBelief> best() const;
 
-  /// Whether the most probable place is min_lead times as probable as the next one.
+  /// Whether the most probable place is min_lead times as probable as the next one, the latest scan fits it, and fits
+  /// no other place (5 m or 20 degrees away) from log-odds of 2 on. Where two places are alike, the lead of one over
+  /// the other comes from what has changed since (parked cars); only a scan that does not fit one of them tells.
   bool decided() const;
 
   const std::vector<PlaceBelief>& all() const { return beliefs_; }
@@ -56,6 +59,7 @@ class PlaceBeliefs {
 
   RelocalizationOptions options_;
   std::vector<PlaceBelief> beliefs_;  ///< most probable first
+  Pose latest_ = Pose::Identity();    ///< T_odometry_lidar of the latest scan
 };
 
 }  // namespace loopmark

@@ -73,7 +73,7 @@ class Relocalizer {
   Vector6d correct_first_scan(const Scan& scan, const TrackedScan& tracked, std::vector<PlaceAnswer>& answers);
   void begin_tracking(const Pose& T_map_odometry, double log_odds);
   void track(const Scan& scan, const TrackedScan& tracked, RelocalizedScan& answer);
-  void verify(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar);
+  Pose verified(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar);
   void lose(const std::string& reason, RelocalizedScan& answer);
 
   std::unique_ptr<State> state_;
