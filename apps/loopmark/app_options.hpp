@@ -12,6 +12,7 @@
 #include "loopmark/registration/engine_options.hpp"
 #include "loopmark/registration/paper_options.hpp"
 #include "loopmark/simulation/options.hpp"
+#include "loopmark/slam/drill_options.hpp"
 #include "loopmark/slam/options.hpp"
 #include "loopmark/slam/relocalization_options.hpp"
 
@@ -28,6 +29,7 @@ struct AppOptions {
   PoseGraphOptions pose_graph;
   OccupancyOptions occupancy;
   RelocalizationOptions relocalization;
+  DrillOptions drill;
   BalanceOptions balance;
   simulation::SimulationOptions simulation;
 };
@@ -43,6 +45,7 @@ void describe(Visitor& v, AppOptions& o) {
   v.section("pose_graph", o.pose_graph, "robust solution of the pose graph");
   v.section("occupancy", o.occupancy, "OctoMap");
   v.section("relocalization", o.relocalization, "finding a place in a map");
+  v.section("drill", o.drill, "cuts in tracking and what counts as found again");
   v.section("balance", o.balance, "choice of balanced sets of frame pairs");
   v.section("simulation", o.simulation, "simulated towns, drives and pairs");
 }

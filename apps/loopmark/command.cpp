@@ -25,6 +25,7 @@ const std::vector<Command>& commands() {
       {"loops", "list the loops of a run, veto or force some, and solve the map again", set_up_loops},
       {"why", "tell stage by stage why two scans of a run make a loop or not", set_up_why},
       {"relocalize", "find the scans of a log in a map, with no hint where they are", set_up_relocalize},
+      {"drill", "cut tracking in a map on purpose and tell how well it is found again", set_up_drill},
       {"simulate", "make a drive log with exact truth", set_up_simulate},
       {"balance", "choose balanced sets of frame pairs from drives with poses", set_up_balance},
       {"register", "find the motion between two scans", set_up_register},

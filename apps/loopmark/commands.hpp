@@ -10,6 +10,7 @@ namespace loopmark::app {
 Action set_up_config(CLI::App& command, const Globals& globals);
 Action set_up_balance(CLI::App& command, const Globals& globals);
 Action set_up_doctor(CLI::App& command, const Globals& globals);
+Action set_up_drill(CLI::App& command, const Globals& globals);
 Action set_up_evaluate(CLI::App& command, const Globals& globals);
 Action set_up_extend(CLI::App& command, const Globals& globals);
 Action set_up_loops(CLI::App& command, const Globals& globals);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "loopmark/config/options_io.hpp"
@@ -32,8 +33,9 @@ constexpr const char* kExamples = R"(Examples:
   loopmark relocalize runs/day1 drives/day2 -o where            every scan of day2, tracked once found
   loopmark relocalize runs/day1 drives/day2 -o where --single   each scan on its own, as after a crash
   loopmark relocalize runs/day1 drives/day2 -o where --every 10 --map-truth drives/day1/poses.txt
-The output folder holds relocalization.csv (state, P(correct), pose and variances of each scan), trajectory.tum (the scans
-that were placed) and summary.json. With the true poses of the run's scans, and of the log's, answers are judged.)";
+The output folder holds relocalization.csv (state, P(correct), pose and covariance of each scan), trajectory.tum (the
+scans that were placed) and summary.json (time to the first pose, losses, recoveries). With the true poses of the run's
+scans, and of the log's in the same world, answers are judged.)";
 
 void declare(CLI::App& command, RelocalizeArguments& a) {
   command.add_option("RUN", a.run, "map: a run folder of loopmark map")->required();
@@ -79,12 +81,17 @@ std::vector<RelocalizedScan> place_scans(const RelocalizeArguments& a, const App
   return placed;
 }
 
-void judge_answers(const RelocalizeArguments& a, const DriveLog& log, const std::vector<RelocalizedScan>& placed,
-                   RelocalizationSummary& summary) {
+/// What answers are judged by.
+struct Truth {
+  MapTruth map;
+  std::vector<Pose> query;
+};
+
+std::optional<Truth> read_truth(const RelocalizeArguments& a, const DriveLog& log) {
   if (a.map_truth.empty()) {
-    return;
+    return std::nullopt;
   }
-  const std::vector<Pose> query = a.truth.empty() ? log.truth() : read_trajectory(a.truth).poses;
+  std::vector<Pose> query = a.truth.empty() ? log.truth() : read_trajectory(a.truth).poses;
   const std::vector<Pose> map = read_trajectory(a.run / "trajectory.tum").poses;
   const std::vector<Pose> true_map = read_trajectory(a.map_truth).poses;
   if (map.size() != true_map.size()) {
@@ -97,7 +104,7 @@ void judge_answers(const RelocalizeArguments& a, const DriveLog& log, const std:
                      std::to_string(query.size()) + " true poses for " + std::to_string(log.size()) + " scans",
                      "see --truth");
   }
-  judge(placed, map, true_map, query, summary);
+  return Truth{MapTruth(map, true_map), std::move(query)};
 }
 
 void print(const RelocalizationSummary& s) {
@@ -113,18 +120,26 @@ void print(const RelocalizationSummary& s) {
 }
 
 int relocalize(const RelocalizeArguments& a, const Globals& globals) {
-  if (std::filesystem::exists(a.output)) {
-    throw InputError(a.output.string(), "", "is there already and is never overwritten", "choose another name for -o");
+  const std::filesystem::path partial = a.output.string() + ".partial";
+  for (const std::filesystem::path& taken : {a.output, partial}) {
+    if (std::filesystem::exists(taken)) {
+      throw InputError(taken.string(), "", "is there already and is never overwritten", "choose another name for -o");
+    }
   }
   const AppOptions options = globals.options();
   const std::unique_ptr<DriveLog> log = open_log(a.log, options.log);
+  RunFolder::open(a.run);
+  const std::optional<Truth> truth = read_truth(a, *log);
   const Stopwatch watch;
   const std::vector<RelocalizedScan> placed = place_scans(a, options, *log);
   RelocalizationSummary summary = summarize(placed);
   summary.seconds = watch.seconds();
-  judge_answers(a, *log, placed, summary);
-  std::filesystem::create_directories(a.output);
-  write_relocalization(a.output, placed, summary);
+  if (truth) {
+    judge(placed, truth->map, truth->query, summary);
+  }
+  std::filesystem::create_directories(partial);
+  write_relocalization(partial, placed, summary);
+  std::filesystem::rename(partial, a.output);
   print(summary);
   return 0;
 }

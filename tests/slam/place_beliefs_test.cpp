@@ -4,10 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace loopmark {
 namespace {
 
-PlaceAnswer answer(double x, double p) { return {pose_from_yaw(0.1, {x, 2.0, 0.0}), Matrix6d::Identity(), p}; }
+/// An answer that would have probability `p` if it were the only one.
+PlaceAnswer answer(double x, double p) {
+  return {pose_from_yaw(0.1, {x, 2.0, 0.0}), Matrix6d::Identity(), std::log(p / (1.0 - p))};
+}
 
 Pose moved(double x) { return pose_from_yaw(0.0, {x, 0.0, 0.0}); }
 
@@ -28,6 +33,48 @@ TEST(PlaceBeliefs, TwoPlacesThatAreAlikeShareWhatOneWouldGet) {
   EXPECT_LT(beliefs.best()->p, RelocalizationOptions().min_p_correct);
 }
 
+TEST(PlaceBeliefs, ALeaderThatHardlyLeadsIsNotDecided) {
+  PlaceBeliefs beliefs({});
+  EXPECT_FALSE(beliefs.decided());
+  beliefs.add({answer(10.0, 0.99), answer(300.0, 0.97)}, moved(0.0));
+  // Odds 99 : 32 : 1.
+  EXPECT_GT(beliefs.best()->p, RelocalizationOptions().min_p_correct);
+  EXPECT_FALSE(beliefs.decided());
+  PlaceBeliefs clear({});
+  clear.add({answer(10.0, 0.99), answer(300.0, 0.85)}, moved(0.0));
+  EXPECT_TRUE(clear.decided()) << "99 : 6 : 1";
+}
+
+TEST(PlaceBeliefs, APlaceThatTheLatestScanFitsIsARivalHoweverFarBehind) {
+  const auto fits = [](double x, const Pose& here, double log_odds) {
+    return PlaceAnswer{answer(x, 0.5).T_map_lidar * here, Matrix6d::Identity(), log_odds};
+  };
+  PlaceBeliefs beliefs({});
+  beliefs.add({fits(10.0, moved(0.0), 8.0), fits(300.0, moved(0.0), 4.0)}, moved(0.0));
+  EXPECT_GT(beliefs.best()->p, 0.95);
+  EXPECT_FALSE(beliefs.decided()) << "both places fit";
+  beliefs.add({fits(10.0, moved(5.0), 3.0), fits(300.0, moved(5.0), -3.0)}, moved(5.0));
+  EXPECT_TRUE(beliefs.decided()) << "the other one does not fit any more";
+  beliefs.add({fits(10.0, moved(9.0), -0.5)}, moved(9.0));
+  EXPECT_FALSE(beliefs.decided()) << "now it does not fit itself";
+
+  PlaceBeliefs beside({});
+  beside.add({fits(10.0, moved(0.0), 8.0), fits(12.0, moved(0.0), 4.0)}, moved(0.0));
+  EXPECT_TRUE(beside.decided()) << "2 m apart they are one place: the lead decides";
+}
+
+TEST(PlaceBeliefs, TwoAlikePlacesStayUndecidedHoweverOftenBothAreSeen) {
+  PlaceBeliefs beliefs({});
+  for (int i = 0; i < 40; ++i) {
+    const Pose here = moved(2.0 * i);
+    beliefs.add({PlaceAnswer{answer(10.0, 0.5).T_map_lidar * here, Matrix6d::Identity(), 4.0},
+                 PlaceAnswer{answer(300.0, 0.5).T_map_lidar * here, Matrix6d::Identity(), 3.999}},
+                here);
+  }
+  EXPECT_FALSE(beliefs.decided());
+  EXPECT_NEAR(beliefs.all()[1].p, beliefs.all()[0].p, 0.02);
+}
+
 TEST(PlaceBeliefs, AnswersToOneScanThatSayTheSameCountOnce) {
   PlaceBeliefs beliefs({});
   beliefs.add({answer(10.0, 0.7), answer(10.3, 0.8), answer(9.8, 0.6)}, moved(0.0));
@@ -38,7 +85,8 @@ TEST(PlaceBeliefs, AnswersToOneScanThatSayTheSameCountOnce) {
 TEST(PlaceBeliefs, MoreScansDecideBetweenPlacesThatAreAlike) {
   PlaceBeliefs beliefs({});
   beliefs.add({answer(10.0, 0.9), answer(300.0, 0.9)}, moved(0.0));
-  beliefs.add({PlaceAnswer{answer(10.0, 0).T_map_lidar * moved(5.0), Matrix6d::Identity(), 0.9}}, moved(5.0));
+  beliefs.add({PlaceAnswer{answer(10.0, 0.5).T_map_lidar * moved(5.0), Matrix6d::Identity(), std::log(9.0)}},
+              moved(5.0));
   // Odds 9 * sqrt(9) and 9 * 0.4 against 1.
   EXPECT_NEAR(beliefs.best()->p, 27.0 / 31.6, 1e-6);
   EXPECT_NEAR(beliefs.best()->T_map_odometry.translation().x(), 10.0, 1e-9);

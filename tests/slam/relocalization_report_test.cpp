@@ -20,6 +20,7 @@ RelocalizedScan scan(std::size_t index, State state, bool answered, double x = 0
   s.scan = index;
   s.stamp_s = 10.0 + 0.1 * static_cast<double>(index);
   s.state = state;
+  s.given_up = state == State::kLost;
   s.answered = answered;
   s.T_map_lidar = pose_from_yaw(0.0, {x, 0, 0});
   s.reason = answered ? "" : "nothing, really";
@@ -50,7 +51,7 @@ TEST(RelocalizationSummary, JudgesThroughTheNearestScanOfTheMap) {
     query.push_back(T_world_map * pose_from_yaw(0, {x, 0, 0}));
   }
   RelocalizationSummary s = summarize(kScans);
-  judge(kScans, map, true_map, query, s);
+  judge(kScans, MapTruth(map, true_map), query, s);
   EXPECT_EQ(s.judged, 3U);
   EXPECT_EQ(s.wrong, 1U);
   EXPECT_NEAR(s.median_error_m, 0.2, 1e-9);
@@ -63,7 +64,7 @@ TEST(WriteRelocalization, WritesARowAScanAndTheAnswers) {
   write_relocalization(folder, kScans, summarize(kScans));
   const std::string csv = read_file(folder / "relocalization.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
-  EXPECT_NE(csv.find("3,10.3,lost,0,0,,,"), std::string::npos);
+  EXPECT_NE(csv.find("3,10.3,lost,1,0,0,,,"), std::string::npos);
   EXPECT_NE(csv.find("nothing; really"), std::string::npos);
   const Trajectory trajectory = read_trajectory(folder / "trajectory.tum");
   ASSERT_EQ(trajectory.poses.size(), 3U);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -65,9 +66,14 @@ class TellingMap final : public PlaceMap {
  public:
   explicit TellingMap(const Street& street) : street_(street) {}
 
-  std::vector<PlaceAnswer> search(const PointCloud& /*scan*/, std::size_t /*places*/) const override {
-    ++searches;
-    return answers;
+  std::vector<PlaceAnswer> search(const PointCloud& /*scan*/, std::size_t places,
+                                  const std::vector<Pose>& believed) const override {
+    searches += places > 0 ? 1 : 0;
+    verifications += places == 0 ? 1 : 0;
+    if (places > 0) {
+      return answers;
+    }
+    return {PlaceAnswer{correction * believed.front(), Matrix6d::Identity(), verdict}};
   }
   std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const override {
     std::vector<Eigen::Vector3d> near;
@@ -80,7 +86,10 @@ class TellingMap final : public PlaceMap {
   }
 
   std::vector<PlaceAnswer> answers;
+  double verdict = 2.0;                ///< log-odds of whatever pose is believed,
+  Pose correction = Pose::Identity();  ///< which is moved by this
   mutable int searches = 0;
+  mutable int verifications = 0;
 
  private:
   const Street& street_;
@@ -91,7 +100,8 @@ class RelocalizerTest : public ::testing::Test {
   RelocalizedScan drive_to(double x, double p) {
     const Pose truth = pose_from_yaw(0.02 * std::sin(x / 20.0), {x, 0.5 * std::sin(x / 30.0), 0.0});
     const Pose told = truth * pose_from_yaw(0.01, {0.2, -0.1, 0.0});
-    map_->answers = p > 0.0 ? std::vector<PlaceAnswer>{{told, Matrix6d::Identity(), p}} : std::vector<PlaceAnswer>{};
+    map_->answers = p > 0.0 ? std::vector<PlaceAnswer>{{told, Matrix6d::Identity(), std::log(p / (1.0 - p))}}
+                            : std::vector<PlaceAnswer>{};
     truth_ = truth;
     return relocalizer_.add(street_.seen_from(truth, next_++));
   }
@@ -114,7 +124,64 @@ TEST_F(RelocalizerTest, FindsThePlaceThenTracksWithoutSearching) {
     EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15) << x;
   }
   EXPECT_EQ(map_->searches, 1);
+  EXPECT_GT(map_->verifications, 5) << "every 5 m";
   EXPECT_GT(answer.p_correct, 0.95);
+}
+
+TEST_F(RelocalizerTest, GivesUpWhatRegistrationContradicts) {
+  for (double x = 0.0; x < 12.0; x += 1.0) {
+    ASSERT_EQ(drive_to(x, 0.95).state, RelocalizationState::kTracking) << x;
+  }
+  map_->verdict = -3.0;
+  bool given_up = false;
+  for (double x = 12.0; x < 60.0 && !given_up; x += 1.0) {
+    const RelocalizedScan answer = drive_to(x, 0.0);
+    given_up = answer.given_up;
+    EXPECT_TRUE(!given_up ||
+                (answer.state == RelocalizationState::kLost && !answer.answered && !answer.reason.empty()));
+  }
+  EXPECT_TRUE(given_up);
+}
+
+TEST_F(RelocalizerTest, TakesThePoseOfRegistrationWhereNearestPointsEndElsewhere) {
+  drive_to(0.0, 0.95);
+  map_->correction = pose_from_yaw(0.0, {0.8, 0.0, 0.0});
+  double largest = 0.0;
+  for (double x = 1.0; x < 8.0; x += 1.0) {
+    const RelocalizedScan answer = drive_to(x, 0.0);
+    ASSERT_EQ(answer.state, RelocalizationState::kTracking);
+    largest = std::max(largest, pose_error(answer.T_map_lidar, truth_).translation_m);
+  }
+  EXPECT_NEAR(largest, 0.8, 0.15) << "the scan that was verified";
+  EXPECT_GT(map_->verifications, 0);
+}
+
+TEST_F(RelocalizerTest, APlaceToldFromOutsideIsTrackedWithoutASearch) {
+  relocalizer_.place(pose_from_yaw(0.0, {20.3, 0.2, 0.0}));
+  const RelocalizedScan answer = drive_to(20.0, 0.0);
+  EXPECT_EQ(answer.state, RelocalizationState::kTracking);
+  EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15);
+  EXPECT_EQ(map_->searches, 0);
+}
+
+TEST_F(RelocalizerTest, AfterALongSilenceThePlaceIsGivenUpAndSearched) {
+  for (double x = 0.0; x < 6.0; x += 1.0) {
+    ASSERT_EQ(drive_to(x, 0.95).state, RelocalizationState::kTracking) << x;
+  }
+  next_ += 30;  // 3 s
+  const RelocalizedScan answer = drive_to(150.0, 0.95);
+  EXPECT_TRUE(answer.given_up);
+  EXPECT_EQ(answer.state, RelocalizationState::kTracking) << "found again by the same scan";
+  EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15);
+  EXPECT_EQ(map_->searches, 2);
+}
+
+TEST_F(RelocalizerTest, OwnMotionLostWhileSearchingIsNoLossOfAPlace) {
+  for (const double x : {0.0, 1.0, 2.0, 200.0}) {
+    const RelocalizedScan answer = drive_to(x, 0.0);
+    EXPECT_EQ(answer.state, RelocalizationState::kSearching);
+    EXPECT_FALSE(answer.given_up);
+  }
 }
 
 TEST_F(RelocalizerTest, SearchesOnUntilItIsSure) {
@@ -141,7 +208,7 @@ TEST_F(RelocalizerTest, NoticesThatItIsLostAndFindsItselfAgain) {
   std::size_t wrong = 0;
   for (double x = 200.0; x < 210.0; x += 1.0) {
     const RelocalizedScan answer = drive_to(x, 0.0);
-    lost = lost || answer.state == RelocalizationState::kLost;
+    lost = lost || answer.given_up;
     wrong += answer.answered && pose_error(answer.T_map_lidar, truth_).translation_m > 0.6 ? 1 : 0;
   }
   EXPECT_TRUE(lost);

@@ -8,15 +8,30 @@
 namespace loopmark {
 namespace {
 
-constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays
-constexpr double kForgotten = -4.0;  ///< log-odds below which a place is dropped
-
-double log_odds(double p) {
-  const double safe = std::clamp(p, 1e-4, 1.0 - 1e-4);
-  return std::log(safe / (1.0 - safe));
-}
+constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
+constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
+constexpr double kElsewhereDeg = 20.0;
+constexpr double kRivalLogOdds = 2.0;  ///< of a scan at another place: both are possible
+constexpr double kUnconfirmed = -5.0;  ///< log-odds that stand for a scan that does not confirm a place
+constexpr double kForgotten = -4.0;    ///< log-odds below which a place is dropped
 
 }  // namespace
+
+std::vector<double> probabilities(const std::vector<PlaceAnswer>& answers) {
+  double highest = 0.0;  // of "none of these"
+  for (const PlaceAnswer& answer : answers) {
+    highest = std::max(highest, answer.log_odds);
+  }
+  double total = std::exp(-highest);
+  for (const PlaceAnswer& answer : answers) {
+    total += std::exp(answer.log_odds - highest);
+  }
+  std::vector<double> p;
+  for (const PlaceAnswer& answer : answers) {
+    p.push_back(std::exp(answer.log_odds - highest) / total);
+  }
+  return p;
+}
 
 bool PlaceBeliefs::same(const Pose& a, const Pose& b) const {
   const PoseError error = pose_error(a, b);
@@ -24,9 +39,10 @@ bool PlaceBeliefs::same(const Pose& a, const Pose& b) const {
 }
 
 void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_odometry_lidar) {
+  latest_ = T_odometry_lidar;
   std::vector<PlaceAnswer> ranked = answers;
   std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.p_correct > b.p_correct; });
+                   [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });
   const std::size_t known = beliefs_.size();
   std::vector<bool> confirmed(known, false);
   for (const PlaceAnswer& answer : ranked) {
@@ -36,28 +52,38 @@ void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_od
     const auto found = std::find_if(beliefs_.begin(), beliefs_.end(), says_the_same);
     if (found == beliefs_.end()) {
       beliefs_.push_back(
-          {answer.T_map_lidar * T_odometry_lidar.inverse(), answer.covariance, log_odds(answer.p_correct), 0.0});
+          {answer.T_map_lidar * T_odometry_lidar.inverse(), answer.covariance, answer.log_odds, answer.log_odds, 0.0});
       continue;
     }
     const auto place = static_cast<std::size_t>(found - beliefs_.begin());
     if (place < known && !confirmed[place]) {
       confirmed[place] = true;
-      found->T_map_odometry = answer.T_map_lidar * T_odometry_lidar.inverse();
-      found->covariance = answer.covariance;
-      found->log_odds += options_.repeat_weight * log_odds(answer.p_correct);
+      if (answer.log_odds >= 0.0) {
+        found->T_map_odometry = answer.T_map_lidar * T_odometry_lidar.inverse();
+        found->covariance = answer.covariance;
+      }
+      found->latest = answer.log_odds;
+      found->log_odds += options_.repeat_weight * answer.log_odds;
     }
   }
   for (std::size_t place = 0; place < known; ++place) {
-    beliefs_[place].log_odds += confirmed[place] ? 0.0 : std::log(options_.miss_odds);
+    if (!confirmed[place]) {
+      beliefs_[place].log_odds += std::log(options_.miss_odds);
+      beliefs_[place].latest = kUnconfirmed;
+    }
   }
   normalise();
 }
 
 void PlaceBeliefs::normalise() {
   std::erase_if(beliefs_, [](const PlaceBelief& b) { return b.log_odds < kForgotten; });
+  double most = 0.0;
+  for (const PlaceBelief& belief : beliefs_) {
+    most = std::max(most, belief.log_odds);
+  }
   double sum = 1.0;
   for (PlaceBelief& belief : beliefs_) {
-    belief.log_odds = std::min(belief.log_odds, kMaxLogOdds);
+    belief.log_odds -= std::max(0.0, most - kMaxLogOdds);  // their ratios stay
     sum += std::exp(belief.log_odds);
   }
   for (PlaceBelief& belief : beliefs_) {
@@ -69,6 +95,18 @@ void PlaceBeliefs::normalise() {
 
 std::optional<PlaceBelief> PlaceBeliefs::best() const {
   return beliefs_.empty() ? std::nullopt : std::optional(beliefs_.front());
+}
+
+bool PlaceBeliefs::decided() const {
+  if (beliefs_.empty() || beliefs_.front().latest < 0.0) {
+    return false;
+  }
+  const PlaceBelief& best = beliefs_.front();
+  return std::none_of(beliefs_.begin() + 1, beliefs_.end(), [&](const PlaceBelief& other) {
+    const PoseError apart = pose_error(other.T_map_odometry * latest_, best.T_map_odometry * latest_);
+    const bool elsewhere = apart.translation_m > kElsewhereM || apart.rotation_deg > kElsewhereDeg;
+    return best.p < options_.min_lead * other.p || (elsewhere && other.latest >= kRivalLogOdds);
+  });
 }
 
 }  // namespace loopmark

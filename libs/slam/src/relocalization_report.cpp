@@ -3,10 +3,8 @@
 #include "loopmark/slam/relocalization_report.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <stdexcept>
 
 #include "loopmark/core/files.hpp"
 #include "loopmark/io/trajectory.hpp"
@@ -14,24 +12,9 @@
 namespace loopmark {
 namespace {
 
-constexpr double kRightM = 0.6;
-constexpr double kRightDeg = 5.0;
-
-std::size_t nearest_scan(const std::vector<Pose>& true_map, const Pose& query) {
-  std::size_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < true_map.size(); ++i) {
-    const double squared = (true_map[i].translation() - query.translation()).squaredNorm();
-    if (squared < least) {
-      least = squared;
-      nearest = i;
-    }
-  }
-  return nearest;
-}
-
 void write_row(std::ostream& out, const RelocalizedScan& s) {
-  out << s.scan << ',' << s.stamp_s << ',' << name(s.state) << ',' << s.p_correct << ',' << (s.answered ? 1 : 0);
+  out << s.scan << ',' << s.stamp_s << ',' << name(s.state) << ',' << (s.given_up ? 1 : 0) << ',' << s.p_correct << ','
+      << (s.answered ? 1 : 0);
   const Eigen::Quaterniond q(s.T_map_lidar.linear());
   const Eigen::Vector3d& t = s.T_map_lidar.translation();
   for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
@@ -40,10 +23,12 @@ void write_row(std::ostream& out, const RelocalizedScan& s) {
       out << value;
     }
   }
-  for (int i = 0; i < 6; ++i) {
-    out << ',';
-    if (s.answered) {
-      out << s.covariance(i, i);
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      out << ',';
+      if (s.answered) {
+        out << s.covariance(row, column);
+      }
     }
   }
   std::string reason = s.reason;
@@ -52,9 +37,11 @@ void write_row(std::ostream& out, const RelocalizedScan& s) {
 }
 
 std::string json_text(const RelocalizationSummary& s) {
-  nlohmann::ordered_json json = {
-      {"scans", s.scans},   {"answered", s.answered},     {"first_answer_s", s.first_answer_s},
-      {"losses", s.losses}, {"recoveries", s.recoveries}, {"seconds", s.seconds}};
+  nlohmann::ordered_json json = {{"scans", s.scans},
+                                 {"answered", s.answered},
+                                 {"first_answer_s", s.first_answer_s},
+                                 {"losses", s.losses},
+                                 {"recoveries", s.recoveries}};
   if (s.judged > 0) {
     json["judged"] = s.judged;
     json["wrong"] = s.wrong;
@@ -73,10 +60,11 @@ RelocalizationSummary summarize(const std::vector<RelocalizedScan>& scans) {
     if (scan.answered && summary.answered++ == 0) {
       summary.first_answer_s = scan.stamp_s - scans.front().stamp_s;
     }
-    if (scan.state == RelocalizationState::kLost) {
+    if (scan.given_up) {
       ++summary.losses;
       searching_again = true;
-    } else if (scan.state == RelocalizationState::kTracking && searching_again) {
+    }
+    if (scan.state == RelocalizationState::kTracking && scan.answered && searching_again) {
       ++summary.recoveries;
       searching_again = false;
     }
@@ -84,21 +72,16 @@ RelocalizationSummary summarize(const std::vector<RelocalizedScan>& scans) {
   return summary;
 }
 
-void judge(const std::vector<RelocalizedScan>& scans, const std::vector<Pose>& T_map_scan,
-           const std::vector<Pose>& true_map, const std::vector<Pose>& true_query, RelocalizationSummary& summary) {
-  if (T_map_scan.size() != true_map.size() || true_map.empty()) {
-    throw std::invalid_argument("the map's truth needs one pose for each of its scans");
-  }
+void judge(const std::vector<RelocalizedScan>& scans, const MapTruth& map, const std::vector<Pose>& true_query,
+           RelocalizationSummary& summary) {
   std::vector<double> errors;
   for (const RelocalizedScan& scan : scans) {
     if (!scan.answered || scan.scan >= true_query.size()) {
       continue;
     }
-    const Pose& truth = true_query[scan.scan];
-    const std::size_t near = nearest_scan(true_map, truth);
-    const PoseError error = pose_error(T_map_scan[near].inverse() * scan.T_map_lidar, true_map[near].inverse() * truth);
+    const PoseError error = map.error(scan.T_map_lidar, true_query[scan.scan]);
     errors.push_back(error.translation_m);
-    summary.wrong += error.translation_m > kRightM || error.rotation_deg > kRightDeg ? 1 : 0;
+    summary.wrong += is_right(error) ? 0 : 1;
   }
   summary.judged = errors.size();
   if (!errors.empty()) {
@@ -112,8 +95,13 @@ void write_relocalization(const std::filesystem::path& folder, const std::vector
                           const RelocalizationSummary& summary) {
   write_file_atomically(folder / "relocalization.csv", [&](std::ostream& out) {
     out.precision(9);
-    out << "scan,stamp_s,state,p_correct,answered,x,y,z,qx,qy,qz,qw,var_x,var_y,var_z,var_roll,var_pitch,var_yaw,"
-           "inlier_share,reason\n";
+    out << "scan,stamp_s,state,given_up,p_correct,answered,x,y,z,qx,qy,qz,qw";
+    for (int row = 0; row < 6; ++row) {
+      for (int column = row; column < 6; ++column) {
+        out << ",cov_" << row << column;
+      }
+    }
+    out << ",inlier_share,reason\n";
     for (const RelocalizedScan& scan : scans) {
       write_row(out, scan);
     }
@@ -128,6 +116,8 @@ void write_relocalization(const std::filesystem::path& folder, const std::vector
   }
   write_tum(folder / "trajectory.tum", stamps, poses);
   write_file_atomically(folder / "summary.json", json_text(summary));
+  const nlohmann::ordered_json seconds = {{"whole", summary.seconds}};
+  write_file_atomically(folder / "timings.json", seconds.dump(1) + "\n");
 }
 
 }  // namespace loopmark

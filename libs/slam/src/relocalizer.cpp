@@ -7,80 +7,25 @@
 #include <optional>
 #include <utility>
 
-#include "loopmark/cloud/voxel.hpp"
-#include "loopmark/odometry/alignment.hpp"
+#include "relocalizer_state.hpp"
+#include "sweep_motion.hpp"
 
 namespace loopmark {
 namespace {
 
 constexpr std::size_t kLeastPoints = 100;  ///< of a scan that can be used
-constexpr double kFitOdds = 0.5;           ///< added to the log-odds of a place by a scan that fits the map there
-constexpr double kMisfitOdds = 1.5;        ///< and taken away by one that does not
+constexpr double kMisfitOdds = 1.5;        ///< taken from the log-odds of a place by a scan that does not fit the map
+constexpr double kMostOfOneScan = 4.0;     ///< log-odds that one verification may add or take
 constexpr double kMaxLogOdds = 9.0;
+constexpr double kWorthCorrecting = -2.0;  ///< log-odds of an answer to a distorted scan
+constexpr double kToldLogOdds = 3.0;       ///< of a pose that was told from outside
+constexpr double kGapS = 0.3;              ///< a longer gap between two scans is a reason to verify
+constexpr double kDisagreementM = 0.3;  ///< between map and own motion in one scan, or nearest points and registration
+constexpr double kUsualMemory = 0.9;    ///< of the usual share of fitting keypoints, a scan
 
 double probability(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 }  // namespace
-
-const char* name(RelocalizationState state) {
-  switch (state) {
-    case RelocalizationState::kSearching:
-      return "searching";
-    case RelocalizationState::kTracking:
-      return "tracking";
-    case RelocalizationState::kLost:
-      break;
-  }
-  return "lost";
-}
-
-void check(const RelocalizationOptions& o) {
-  require_option(o.places >= 1, "places", "must be at least 1");
-  require_option(o.place_radius_m > 0.0, "place_radius_m", "must be positive");
-  require_option(o.min_p_correct > 0.0 && o.min_p_correct < 1.0, "min_p_correct", "must be above 0, below 1");
-  require_option(o.tracking_p >= o.min_p_correct && o.tracking_p < 1.0, "tracking_p", "must be min_p_correct to 1");
-  require_option(o.same_place_m > 0.0 && o.same_place_deg > 0.0, "same_place_m", "must be positive");
-  require_option(o.miss_odds > 0.0 && o.miss_odds <= 1.0, "miss_odds", "must be above 0, at most 1");
-  require_option(o.map_radius_m > 0.0, "map_radius_m", "must be positive");
-  require_option(o.lost_after >= 1, "lost_after", "must be at least 1");
-}
-
-struct Relocalizer::State {
-  State(std::shared_ptr<const PlaceMap> m, const RelocalizationOptions& o, const OdometryOptions& odometry_o,
-        Compensation compensation, const SweepModel& sweep)
-      : map(std::move(m)),
-        options(o),
-        odometry_options(odometry_o),
-        odometry(odometry_o, compensation, sweep),
-        beliefs(o) {}
-
-  std::shared_ptr<const PlaceMap> map;
-  RelocalizationOptions options;
-  OdometryOptions odometry_options;
-  Odometry odometry;
-  std::size_t committed = 0;
-
-  PlaceBeliefs beliefs;             ///< while searching
-  std::optional<Pose> searched_at;  ///< T_odometry_lidar of the scan that was registered last
-
-  bool tracking = false;
-  Pose T_map_odometry = Pose::Identity();
-  double log_odds = 0.0;
-  std::size_t misfits = 0;         ///< in a row
-  std::optional<LocalMap> around;  ///< the map around the sensor
-  Eigen::Vector3d around_at = Eigen::Vector3d::Zero();
-
-  void renew_surroundings(const Eigen::Vector3d& position);
-};
-
-void Relocalizer::State::renew_surroundings(const Eigen::Vector3d& position) {
-  if (around && (position - around_at).norm() < options.map_radius_m / 3.0) {
-    return;
-  }
-  around.emplace(odometry.map()->voxel_m(), odometry_options.points_per_voxel);
-  around->insert(map->points_around(position, options.map_radius_m));
-  around_at = position;
-}
 
 Relocalizer::Relocalizer(std::shared_ptr<const PlaceMap> map, const RelocalizationOptions& options,
                          const OdometryOptions& odometry_options, Compensation compensation, const SweepModel& sweep) {
@@ -90,109 +35,196 @@ Relocalizer::Relocalizer(std::shared_ptr<const PlaceMap> map, const Relocalizati
 
 Relocalizer::~Relocalizer() = default;
 
+void Relocalizer::place(const Pose& T_map_lidar) { state_->told = T_map_lidar; }
+
 RelocalizedScan Relocalizer::add(const Scan& scan) {
   State& s = *state_;
   RelocalizedScan answer;
   answer.scan = scan.index;
   answer.stamp_s = scan.stamp_s;
-  TrackedScan tracked = s.odometry.track(scan);
+  answer.state = s.tracking ? RelocalizationState::kTracking : RelocalizationState::kSearching;
+  const TrackedScan tracked = follow_own_motion(scan, answer);
   if (tracked.sample.size() < kLeastPoints) {
-    answer.state = s.tracking ? RelocalizationState::kTracking : RelocalizationState::kSearching;
     answer.reason = "the scan has too few points";
     return answer;
   }
-  const bool own_motion_lost = s.committed > 0 && tracked.health.tracking == Tracking::kLost;
-  if (own_motion_lost) {
-    const std::string reason = "the motion was lost: " + tracked.health.reason;
-    s.odometry.restart();
-    tracked = s.odometry.track(scan);
-    s.committed = 0;
-    lose(reason, answer);
+  if (s.told) {
+    begin_tracking(*s.told * tracked.T_map_lidar.inverse(), kToldLogOdds);
+    s.told.reset();
   }
-  s.odometry.commit(tracked);
-  ++s.committed;
   if (s.tracking) {
-    track(tracked, answer);
-  } else {
+    track(scan, tracked, answer);
+  }
+  if (!s.tracking) {
     search(scan, tracked, answer);
-    answer.state = own_motion_lost && !s.tracking ? RelocalizationState::kLost : answer.state;
   }
   return answer;
 }
 
-/// Registers the scan to the places that look like it, unless it hardly differs from the one before.
-void Relocalizer::search(const Scan& scan, const TrackedScan& tracked, RelocalizedScan& answer) {
+/// The scan's pose in the odometry's frame. Where the motion is lost it starts anew, and the place is given up.
+TrackedScan Relocalizer::follow_own_motion(const Scan& scan, RelocalizedScan& answer) {
+  State& s = *state_;
+  s.gap_s = s.last_stamp_s ? scan.stamp_s - *s.last_stamp_s : 0.0;
+  const auto restart = [&](const std::string& reason) {
+    s.odometry.restart();
+    s.committed = 0;
+    lose(reason, answer);
+  };
+  if (s.committed > 0 && (s.gap_s > s.options.max_gap_s || s.gap_s < 0.0)) {
+    restart(s.gap_s < 0.0 ? "stamps go back" : "no scan came for " + std::to_string(std::lround(s.gap_s)) + " s");
+  }
+  TrackedScan tracked = s.odometry.track(scan);
+  if (tracked.sample.size() < kLeastPoints) {
+    return tracked;
+  }
+  if (s.committed > 0 && tracked.health.tracking == Tracking::kLost) {
+    restart("the motion was lost: " + tracked.health.reason);
+    tracked = s.odometry.track(scan);
+  }
+  s.odometry.commit(tracked);
+  s.last_stamp_s = scan.stamp_s;
+  ++s.committed;
+  return tracked;
+}
+
+/// The first scan of a moving sensor is distorted by a motion that is not known yet: the surest answer tells it, and is
+/// judged again without the distortion. Returns the motion.
+Vector6d Relocalizer::correct_first_scan(const Scan& scan, const TrackedScan& tracked,
+                                         std::vector<PlaceAnswer>& answers) {
+  State& s = *state_;
+  if (answers.empty() || answers.front().log_odds < kWorthCorrecting || !s.odometry.deskews() || s.committed != 1 ||
+      tracked.sample.time_offset_s.size() != tracked.sample.size()) {
+    return tracked.velocity;
+  }
+  PlaceAnswer& best = answers.front();
+  s.renew_surroundings(best.T_map_lidar.translation());
+  const auto found = align_sweep(tracked.sample.points, tracked.sample.time_offset_s, *s.around, best.T_map_lidar);
+  if (!found) {
+    return tracked.velocity;
+  }
+  std::vector<PlaceAnswer> again =
+      s.map->search(s.odometry.deskewed_cloud(scan, found->velocity), 0, {found->T_map_lidar});
+  const bool better = !again.empty() && again.front().log_odds >= best.log_odds;
+  best.T_map_lidar = better ? again.front().T_map_lidar : found->T_map_lidar;
+  best.log_odds = better ? again.front().log_odds : best.log_odds;
+  TrackedScan moving = tracked;  // so that the next scan is expected where this motion leads
+  moving.velocity = found->velocity;
+  s.odometry.restart(tracked.T_map_lidar);
+  s.odometry.commit(moving);
+  return found->velocity;
+}
+
+/// Registers the scan to the places that look like it and to those believed so far, unless it hardly differs from the
+/// one before.
+void Relocalizer::search(const Scan& scan, TrackedScan tracked, RelocalizedScan& answer) {
   State& s = *state_;
   const Pose& T_odometry_lidar = tracked.T_map_lidar;
   const bool moved =
       !s.searched_at || (s.searched_at->inverse() * T_odometry_lidar).translation().norm() >= s.options.search_every_m;
   if (moved) {
     const PointCloud cloud = s.odometry.deskewed_cloud(scan, tracked.velocity);
-    s.beliefs.add(s.map->search(cloud, s.options.places), T_odometry_lidar);
+    std::vector<PlaceAnswer> answers = s.map->search(cloud, s.options.places, s.believed(T_odometry_lidar));
+    tracked.velocity = correct_first_scan(scan, tracked, answers);
+    s.beliefs.add(answers, T_odometry_lidar);
     s.searched_at = T_odometry_lidar;
   }
   const std::optional<PlaceBelief> best = s.beliefs.best();
-  answer.state = RelocalizationState::kSearching;
+  answer.state = answer.given_up ? RelocalizationState::kLost : RelocalizationState::kSearching;
   answer.p_correct = best ? best->p : 0.0;
-  if (!best || best->p < s.options.min_p_correct) {
-    answer.reason =
-        answer.reason.empty() ? (best ? "no place is probable enough" : "no place looks like this") : answer.reason;
+  if (!best || best->p < s.options.min_p_correct || !s.beliefs.decided()) {
+    const std::string why = !best                               ? "no place looks like this"
+                            : best->p < s.options.min_p_correct ? "no place is probable enough"
+                                                                : "two places are alike";
+    answer.reason = answer.reason.empty() ? why : answer.reason;
     return;
   }
   answer.answered = true;
   answer.T_map_lidar = best->T_map_odometry * T_odometry_lidar;
   answer.covariance = best->covariance;
   if (best->p >= s.options.tracking_p) {
-    s.tracking = true;
-    s.T_map_odometry = best->T_map_odometry;
-    s.log_odds = best->log_odds;
-    s.misfits = 0;
-    s.around.reset();
-    track(tracked, answer);
+    begin_tracking(best->T_map_odometry, std::log(best->p / std::max(1.0 - best->p, 1e-6)));
+    s.verified_at = T_odometry_lidar;
+    track(scan, tracked, answer);
   }
 }
 
-/// Aligns the scan to the map from where the own motion predicts it.
-void Relocalizer::track(const TrackedScan& tracked, RelocalizedScan& answer) {
+void Relocalizer::begin_tracking(const Pose& T_map_odometry, double log_odds) {
+  State& s = *state_;
+  s.tracking = true;
+  s.T_map_odometry = T_map_odometry;
+  s.log_odds = std::min(log_odds, kMaxLogOdds);
+  s.misfits = 0;
+  s.usual_share = 0.0;
+  s.verified_at.reset();
+}
+
+/// Aligns the scan to the map from where the own motion predicts it, and has registration judge the pose now and then.
+void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, RelocalizedScan& answer) {
   State& s = *state_;
   const Pose predicted = s.T_map_odometry * tracked.T_map_lidar;
-  s.renew_surroundings(predicted.translation());
-  std::vector<Eigen::Vector3f> keypoints;
-  for (const std::size_t i :
-       voxel_first_indices(tracked.sample.points, s.odometry_options.keypoint_voxels * s.around->voxel_m())) {
-    keypoints.push_back(tracked.sample.points[i]);
-  }
-  const Alignment found = align(keypoints, *s.around, predicted, s.around->voxel_m(), s.odometry_options);
+  const Alignment found = s.align_to_map(s.odometry.deskewed_cloud(scan, tracked.velocity), predicted);
   const PoseError jump = pose_error(found.T_map_lidar, predicted);
-  const bool fits = found.health.inlier_share >= s.options.min_inlier_share &&
-                    jump.translation_m <= s.options.max_jump_m && jump.rotation_deg <= s.options.same_place_deg;
-  s.misfits = fits ? 0 : s.misfits + 1;
-  s.log_odds = fits ? std::min(s.log_odds + kFitOdds, kMaxLogOdds) : s.log_odds - kMisfitOdds;
-  const Pose T_map_lidar = fits ? found.T_map_lidar : predicted;
+  const double share = found.health.inlier_share;
+  const bool fits = share >= s.options.min_inlier_share && jump.translation_m <= s.options.max_jump_m &&
+                    jump.rotation_deg <= s.options.same_place_deg;
+  const bool doubtful =
+      share < s.options.doubt_share * s.usual_share || s.gap_s > kGapS || jump.translation_m > kDisagreementM;
+  Pose T_map_lidar = fits ? found.T_map_lidar : predicted;
+  answer.inlier_share = share;
   if (fits) {
+    const bool due = !s.verified_at ||
+                     (s.verified_at->inverse() * tracked.T_map_lidar).translation().norm() >= s.options.verify_every_m;
+    if (due || doubtful) {
+      T_map_lidar = verified(scan, tracked, found.T_map_lidar);
+    }
+    s.misfits = 0;
+    s.usual_share = s.usual_share == 0.0 ? share : kUsualMemory * s.usual_share + (1.0 - kUsualMemory) * share;
     s.T_map_odometry = T_map_lidar * tracked.T_map_lidar.inverse();
+  } else {
+    ++s.misfits;
+    s.log_odds -= kMisfitOdds;
   }
-  answer.inlier_share = found.health.inlier_share;
   answer.p_correct = probability(s.log_odds);
   if (s.misfits >= s.options.lost_after || answer.p_correct < s.options.min_p_correct) {
-    lose("scans no longer fit the map", answer);
+    lose(fits ? "registration says that this is another place" : "scans no longer fit the map", answer);
     return;
   }
   answer.state = RelocalizationState::kTracking;
-  answer.answered = true;
+  answer.answered = fits;
+  answer.reason = fits ? answer.reason : "the scan does not fit the map";
   answer.T_map_lidar = T_map_lidar;
-  const Matrix6d to_map = adjoint(T_map_lidar);
+  const Matrix6d to_map = adjoint(answer.T_map_lidar);
   answer.covariance = to_map * found.health.covariance * to_map.transpose();
+}
+
+/// One more piece of evidence for or against the place, from beams and structure rather than from nearest points.
+/// Returns the pose, or that of registration where both are of one place but apart.
+Pose Relocalizer::verified(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar) {
+  State& s = *state_;
+  s.verified_at = tracked.T_map_lidar;
+  double found = -kMostOfOneScan;
+  Pose better = T_map_lidar;
+  for (const PlaceAnswer& answer : s.map->search(s.odometry.deskewed_cloud(scan, tracked.velocity), 0, {T_map_lidar})) {
+    const PoseError off = pose_error(answer.T_map_lidar, T_map_lidar);
+    if (off.translation_m < s.options.same_place_m && off.rotation_deg < s.options.same_place_deg &&
+        answer.log_odds > found) {
+      found = std::min(answer.log_odds, kMostOfOneScan);
+      better = found > 0.0 && off.translation_m > kDisagreementM ? answer.T_map_lidar : T_map_lidar;
+    }
+  }
+  s.log_odds = std::min(s.log_odds + s.options.repeat_weight * found, kMaxLogOdds);
+  return better;
 }
 
 void Relocalizer::lose(const std::string& reason, RelocalizedScan& answer) {
   State& s = *state_;
+  answer.given_up = answer.given_up || s.tracking;
+  answer.reason = s.tracking ? reason : answer.reason;
   s.tracking = false;
   s.beliefs.clear();
   s.searched_at.reset();
-  answer.state = RelocalizationState::kLost;
+  answer.state = answer.given_up ? RelocalizationState::kLost : RelocalizationState::kSearching;
   answer.answered = false;
-  answer.reason = reason;
 }
 
 }  // namespace loopmark

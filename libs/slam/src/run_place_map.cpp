@@ -3,84 +3,67 @@
 #include "loopmark/slam/run_place_map.hpp"
 
 #include <algorithm>
-#include <list>
-#include <map>
-#include <mutex>
+#include <optional>
+#include <set>
 #include <utility>
 
+#include "found_place.hpp"
 #include "keyframe_files.hpp"
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/places/place_index.hpp"
+#include "lru_cache.hpp"
+#include "place_centers.hpp"
+#include "place_confidence.hpp"
 
 namespace loopmark {
 namespace {
 
 constexpr std::size_t kSubmapKeyframes = 5;  ///< at most, the nearest ones
-constexpr std::size_t kCachedSubmaps = 64;
+constexpr std::size_t kCachedSubmaps = 128;
+constexpr double kCenterShare = 0.5;  ///< of place_radius_m: a keyframe is at most so far from its submap's center
 constexpr std::size_t kMatchesPerPlace = 6;  ///< keyframes asked of the index for each place wanted
 constexpr double kKeyframeVoxel = 0.2;       ///< metres; as keyframes are kept by default
-constexpr double kLeastP = 0.02;             ///< modes below it say nothing
+constexpr double kLeastLogOdds = -5.0;       ///< modes below it say nothing
+constexpr double kSuspectLogOdds = -1.5;     ///< from here on the twins of a place are asked too
 
-/// Values kept by number, those used longest ago dropped first.
-template <class Value>
-class Cache {
- public:
-  explicit Cache(std::size_t capacity) : capacity_(capacity) {}
-
-  template <class Make>
-  Value get(std::size_t key, const Make& make) {
-    {
-      const std::scoped_lock lock(mutex_);
-      if (const auto found = values_.find(key); found != values_.end()) {
-        order_.splice(order_.begin(), order_, found->second.second);
-        return found->second.first;
-      }
-    }
-    Value value = make();
-    const std::scoped_lock lock(mutex_);
-    if (values_.count(key) == 0) {
-      order_.push_front(key);
-      values_.emplace(key, std::pair(value, order_.begin()));
-      if (values_.size() > capacity_) {
-        values_.erase(order_.back());
-        order_.pop_back();
-      }
-    }
-    return value;
-  }
-
- private:
-  std::size_t capacity_;
-  std::mutex mutex_;
-  std::list<std::size_t> order_;
-  std::map<std::size_t, std::pair<Value, std::list<std::size_t>::iterator>> values_;
+/// A place of the map that a scan is registered to.
+struct Asked {
+  std::size_t center = 0;
+  double signature_lag = 0.0;
 };
+
+std::vector<FoundPlace> joined(std::vector<std::vector<FoundPlace>> parts) {
+  std::vector<FoundPlace> all;
+  for (std::vector<FoundPlace>& part : parts) {
+    std::move(part.begin(), part.end(), std::back_inserter(all));
+  }
+  return all;
+}
 
 class RunPlaceMap final : public PlaceMap {
  public:
   RunPlaceMap(const RunFolder& run, const SolvedMap& solved, const RelocalizationOptions& options,
-              const EngineOptions& engine)
+              const EngineOptions& engine, const std::vector<std::size_t>& left_out)
       : run_(run), options_(options), engine_(engine), submaps_(kCachedSubmaps) {
+    const std::set<std::size_t> out(left_out.begin(), left_out.end());
     for (const Keyframe& keyframe : solved.keyframes) {
-      if (solved.solution.component_of[keyframe.number] == 0) {
+      if (solved.solution.component_of[keyframe.number] == 0 && out.count(keyframe.number) == 0) {
         index_.add(number_.size(), read_keyframe_place(run_, keyframe.number));
         number_.push_back(keyframe.number);
         T_map_keyframe_.push_back(solved.T_map_keyframe[keyframe.number]);
       }
     }
+    center_ = place_centers(T_map_keyframe_, kCenterShare * options_.place_radius_m);
   }
 
-  std::vector<PlaceAnswer> search(const PointCloud& scan, std::size_t places) const override {
-    const std::vector<std::size_t> chosen = alike_places(scan, places);
+  std::vector<PlaceAnswer> search(const PointCloud& scan, std::size_t places,
+                                  const std::vector<Pose>& believed) const override {
     const PreparedScan source = prepare_scan(scan, engine_);
-    std::vector<std::vector<PlaceAnswer>> found(chosen.size());
-    parallel_for(chosen.size(), [&](std::size_t i) { found[i] = register_to(source, chosen[i]); });
-    std::vector<PlaceAnswer> answers;
-    for (const std::vector<PlaceAnswer>& some : found) {
-      answers.insert(answers.end(), some.begin(), some.end());
-    }
-    return answers;
+    const std::vector<Asked> asked = alike_places(scan, places);
+    std::vector<FoundPlace> found = joined({judge(source, believed), register_to(source, asked)});
+    std::vector<FoundPlace> of_twins = register_to(source, twins(found, asked));
+    return concluded(joined({std::move(found), std::move(of_twins)}), source);
   }
 
   std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const override {
@@ -97,54 +80,96 @@ class RunPlaceMap final : public PlaceMap {
   }
 
  private:
+  double distance(std::size_t a, const Eigen::Vector3d& position) const {
+    return (T_map_keyframe_[a].translation() - position).norm();
+  }
   std::vector<std::size_t> keyframes_within(const Eigen::Vector3d& position, double radius) const;
-  std::vector<std::size_t> alike_places(const PointCloud& scan, std::size_t places) const;
+  std::optional<std::size_t> nearest_center(const Eigen::Vector3d& position) const;
+  std::vector<Asked> alike_places(const PointCloud& scan, std::size_t places) const;
+  std::vector<Asked> distinct_places(const std::vector<PlaceMatch>& matches, std::size_t places,
+                                     std::vector<std::size_t> known) const;
+  std::vector<Asked> twins(const std::vector<FoundPlace>& found, const std::vector<Asked>& asked) const;
   PreparedScan submap(std::size_t center) const;
-  std::vector<PlaceAnswer> register_to(const PreparedScan& source, std::size_t center) const;
+  std::vector<FoundPlace> register_to(const PreparedScan& source, const std::vector<Asked>& asked) const;
+  std::vector<FoundPlace> judge(const PreparedScan& source, const std::vector<Pose>& believed) const;
+  std::vector<FoundPlace> modes(const RegistrationResult& result, const Asked& asked) const;
+  std::vector<PlaceAnswer> concluded(std::vector<FoundPlace> found, const PreparedScan& source) const;
 
   RunFolder run_;
   RelocalizationOptions options_;
   EngineOptions engine_;
   std::vector<Pose> T_map_keyframe_;
   std::vector<std::size_t> number_;  ///< of the keyframe's files
+  std::vector<std::size_t> center_;  ///< of each keyframe, the keyframe at the center of its submap
   PlaceIndex index_;
-  mutable Cache<PreparedScan> submaps_;
+  mutable LruCache<PreparedScan> submaps_;
 };
 
 std::vector<std::size_t> RunPlaceMap::keyframes_within(const Eigen::Vector3d& position, double radius) const {
   std::vector<std::size_t> near;
   for (std::size_t k = 0; k < T_map_keyframe_.size(); ++k) {
-    if ((T_map_keyframe_[k].translation() - position).norm() < radius) {
+    if (distance(k, position) < radius) {
       near.push_back(k);
     }
   }
   return near;
 }
 
-/// Keyframes that look like the scan, no two of one place.
-std::vector<std::size_t> RunPlaceMap::alike_places(const PointCloud& scan, std::size_t places) const {
-  std::vector<std::size_t> chosen;
-  for (const PlaceMatch& match :
-       index_.query(place_of(voxel_downsampled(scan, kKeyframeVoxel)), kMatchesPerPlace * places)) {
-    const bool known = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
-      return (T_map_keyframe_[other].translation() - T_map_keyframe_[match.id].translation()).norm() <
-             options_.place_radius_m;
+std::optional<std::size_t> RunPlaceMap::nearest_center(const Eigen::Vector3d& position) const {
+  const std::vector<std::size_t> near = keyframes_within(position, 2.0 * options_.place_radius_m);
+  const auto nearest = std::min_element(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
+    return distance(a, position) < distance(b, position);
+  });
+  return nearest == near.end() ? std::nullopt : std::optional(center_[*nearest]);
+}
+
+/// The first keyframes of `matches`, no two of one place nor of one that is `known`.
+std::vector<Asked> RunPlaceMap::distinct_places(const std::vector<PlaceMatch>& matches, std::size_t places,
+                                                std::vector<std::size_t> known) const {
+  std::vector<Asked> chosen;
+  for (const PlaceMatch& match : matches) {
+    const std::size_t center = center_[match.id];
+    const bool there = std::any_of(known.begin(), known.end(), [&](std::size_t other) {
+      return distance(other, T_map_keyframe_[center].translation()) < options_.place_radius_m;
     });
-    if (!known && chosen.size() < places) {
-      chosen.push_back(match.id);
+    if (!there && chosen.size() < places) {
+      known.push_back(center);
+      chosen.push_back({center, match.distance - matches.front().distance});
     }
   }
   return chosen;
+}
+
+std::vector<Asked> RunPlaceMap::alike_places(const PointCloud& scan, std::size_t places) const {
+  if (places == 0) {
+    return {};
+  }
+  const PlaceSignature signature = place_of(voxel_downsampled(scan, kKeyframeVoxel));
+  return distinct_places(index_.query(signature, kMatchesPerPlace * places), places, {});
+}
+
+/// Places that look like the one where the scan was found and were not asked: one of them may be where it is.
+std::vector<Asked> RunPlaceMap::twins(const std::vector<FoundPlace>& found, const std::vector<Asked>& asked) const {
+  const auto best = std::max_element(found.begin(), found.end(), [](const FoundPlace& a, const FoundPlace& b) {
+    return a.voices.registration < b.voices.registration;
+  });
+  if (asked.empty() || best == found.end() || best->voices.registration < kSuspectLogOdds) {
+    return {};
+  }
+  std::vector<std::size_t> known;
+  std::transform(asked.begin(), asked.end(), std::back_inserter(known), [](const Asked& a) { return a.center; });
+  const Eigen::Vector3d here = T_map_keyframe_[best->center].translation();
+  const auto elsewhere = [&](std::size_t id) { return distance(id, here) > 2.0 * options_.place_radius_m; };
+  const PlaceSignature signature = read_keyframe_place(run_, number_[best->center]);
+  return distinct_places(index_.query(signature, kMatchesPerPlace * options_.twins, elsewhere), options_.twins, known);
 }
 
 PreparedScan RunPlaceMap::submap(std::size_t center) const {
   return submaps_.get(center, [&] {
     const Eigen::Vector3d position = T_map_keyframe_[center].translation();
     std::vector<std::size_t> near = keyframes_within(position, options_.place_radius_m);
-    std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
-      return (T_map_keyframe_[a].translation() - position).norm() <
-             (T_map_keyframe_[b].translation() - position).norm();
-    });
+    std::stable_sort(near.begin(), near.end(),
+                     [&](std::size_t a, std::size_t b) { return distance(a, position) < distance(b, position); });
     near.resize(std::min(near.size(), kSubmapKeyframes));
     std::vector<PointCloud> clouds;
     std::vector<Pose> T_submap_scan;
@@ -156,25 +181,73 @@ PreparedScan RunPlaceMap::submap(std::size_t center) const {
   });
 }
 
-std::vector<PlaceAnswer> RunPlaceMap::register_to(const PreparedScan& source, std::size_t center) const {
-  const RegistrationResult result = register_scans(source, submap(center), engine_);
-  const Matrix6d to_map = adjoint(T_map_keyframe_[center]);
-  std::vector<PlaceAnswer> answers;
-  for (const RegistrationMode& mode : result.modes) {
-    if (mode.p_correct >= kLeastP) {
-      answers.push_back({T_map_keyframe_[center] * mode.T_target_source,
-                         to_map * result.covariance * to_map.transpose(), mode.p_correct});
+std::vector<FoundPlace> RunPlaceMap::modes(const RegistrationResult& result, const Asked& asked) const {
+  const Pose& T_map_center = T_map_keyframe_[asked.center];
+  const Matrix6d to_map = adjoint(T_map_center);
+  const std::vector<double> log_odds = log_odds_of_modes(result);
+  std::vector<FoundPlace> found;
+  for (std::size_t i = 0; i < log_odds.size(); ++i) {
+    if (log_odds[i] >= kLeastLogOdds) {
+      FoundPlace one;
+      one.answer.T_map_lidar = T_map_center * result.modes[i].T_target_source;
+      one.answer.covariance = to_map * result.covariance * to_map.transpose();
+      one.voices = {log_odds[i], 1.0, asked.signature_lag};
+      one.center = asked.center;
+      one.own_covariance = i == 0;
+      one.centers = {asked.center};
+      found.push_back(std::move(one));
     }
   }
+  return found;
+}
+
+std::vector<FoundPlace> RunPlaceMap::register_to(const PreparedScan& source, const std::vector<Asked>& asked) const {
+  std::vector<std::vector<FoundPlace>> each(asked.size());
+  parallel_for(asked.size(), [&](std::size_t i) {
+    each[i] = modes(register_scans(source, submap(asked[i].center), engine_), asked[i]);
+  });
+  return joined(std::move(each));
+}
+
+/// The poses that are believed, judged as those that were searched are.
+std::vector<FoundPlace> RunPlaceMap::judge(const PreparedScan& source, const std::vector<Pose>& believed) const {
+  std::vector<std::vector<FoundPlace>> each(believed.size());
+  parallel_for(believed.size(), [&](std::size_t i) {
+    if (const auto center = nearest_center(believed[i].translation())) {
+      const Pose T_center_source = T_map_keyframe_[*center].inverse() * believed[i];
+      each[i] = modes(verify_motion(source, submap(*center), T_center_source, engine_), {*center, 0.0});
+    }
+  });
+  return joined(std::move(each));
+}
+
+/// Each distinct answer once, the most probable first.
+std::vector<PlaceAnswer> RunPlaceMap::concluded(std::vector<FoundPlace> found, const PreparedScan& source) const {
+  std::vector<PlaceAnswer> answers;
+  for (FoundPlace& one : distinct_places_found(std::move(found), options_)) {
+    if (answers.empty() && !one.own_covariance) {
+      const Pose& T_map_center = T_map_keyframe_[one.center];
+      const Matrix6d to_map = adjoint(T_map_center);
+      const auto judged =
+          verify_motion(source, submap(one.center), T_map_center.inverse() * one.answer.T_map_lidar, engine_);
+      one.answer.covariance = to_map * judged.covariance * to_map.transpose();
+    }
+    one.answer.log_odds = place_log_odds(one.voices);
+    one.answer.evidence = evidence_of(one.voices);
+    answers.push_back(std::move(one.answer));
+  }
+  std::stable_sort(answers.begin(), answers.end(),
+                   [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });
   return answers;
 }
 
 }  // namespace
 
 std::shared_ptr<const PlaceMap> open_place_map(const RunFolder& run, const SolvedMap& solved,
-                                               const RelocalizationOptions& options, const EngineOptions& engine) {
+                                               const RelocalizationOptions& options, const EngineOptions& engine,
+                                               const std::vector<std::size_t>& left_out) {
   check(options);
-  return std::make_shared<RunPlaceMap>(run, solved, options, engine);
+  return std::make_shared<RunPlaceMap>(run, solved, options, engine, left_out);
 }
 
 }  // namespace loopmark

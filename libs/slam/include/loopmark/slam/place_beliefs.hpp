@@ -7,27 +7,34 @@
 #include <vector>
 
 #include "loopmark/core/pose.hpp"
+#include "loopmark/registration/engine.hpp"
 #include "loopmark/slam/relocalization_options.hpp"
 
 namespace loopmark {
 
-/// One answer of the registration of a scan to a place of the map.
+/// One answer of the registration of a scan to the map.
 struct PlaceAnswer {
   Pose T_map_lidar = Pose::Identity();
   Matrix6d covariance = Matrix6d::Identity();  ///< of xi in exp(xi) * T_map_lidar
-  double p_correct = 0.0;                      ///< of this answer alone: right or wrong
+  double log_odds = 0.0;                       ///< of this answer against "none of these"
+  Evidence evidence = {};                      ///< the numbers behind the log-odds
 };
+
+/// P(correct) of each answer to one scan: exp(l_i) / (1 + sum_j exp(l_j)), all answers and "none of these" together.
+std::vector<double> probabilities(const std::vector<PlaceAnswer>& answers);
 
 /// A place the sensor may be at.
 struct PlaceBelief {
   Pose T_map_odometry = Pose::Identity();
   Matrix6d covariance = Matrix6d::Identity();  ///< of the latest answer
   double log_odds = 0.0;                       ///< against "none of these"
+  double latest = 0.0;                         ///< what the latest scan alone said: log-odds against "none of these"
   double p = 0.0;                              ///< among all beliefs and "none of these"
 };
 
 /// Keeps the possible places of a sensor whose own motion is known, and one probability over all of them together: they
-/// exclude each other, and "none of these" is one of them. Answers to one scan that say the same count once.
+/// exclude each other, and "none of these" is one of them. Answers to one scan that say the same count once. While two
+/// places are alike neither is given (`decided`), however improbable "none of these" is.
 class PlaceBeliefs {
  public:
   explicit PlaceBeliefs(const RelocalizationOptions& options) : options_(options) {}
@@ -38,6 +45,11 @@ class PlaceBeliefs {
   /// The most probable place, or nothing.
   std::optional<PlaceBelief> best() const;
 
+  /// Whether the most probable place is min_lead times as probable as the next one, the latest scan fits it, and fits
+  /// no other place (5 m or 20 degrees away) from log-odds of 2 on. Where two places are alike, the lead of one over
+  /// the other comes from what has changed since (parked cars); only a scan that does not fit one of them tells.
+  bool decided() const;
+
   const std::vector<PlaceBelief>& all() const { return beliefs_; }
   void clear() { beliefs_.clear(); }
 
@@ -47,6 +59,7 @@ class PlaceBeliefs {
 
   RelocalizationOptions options_;
   std::vector<PlaceBelief> beliefs_;  ///< most probable first
+  Pose latest_ = Pose::Identity();    ///< T_odometry_lidar of the latest scan
 };
 
 }  // namespace loopmark

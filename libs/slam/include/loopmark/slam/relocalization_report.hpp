@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "loopmark/slam/map_truth.hpp"
 #include "loopmark/slam/relocalizer.hpp"
 
 namespace loopmark {
@@ -28,13 +29,16 @@ struct RelocalizationSummary {
 
 RelocalizationSummary summarize(const std::vector<RelocalizedScan>& scans);
 
-/// Compares answers with the truth through the nearest scan of the map, so that the map's drift elsewhere does not
-/// count: T_map_near^-1 * answer against the same of the true poses. `T_map_scan` and `true_map` are the map's scans;
-/// `true_query` has one pose for each scan of the log, in the same world.
-void judge(const std::vector<RelocalizedScan>& scans, const std::vector<Pose>& T_map_scan,
-           const std::vector<Pose>& true_map, const std::vector<Pose>& true_query, RelocalizationSummary& summary);
+/// Whether an answer is right: nearer than 0.6 m and turned by less than 5 degrees.
+inline bool is_right(const PoseError& error) { return error.translation_m < 0.6 && error.rotation_deg < 5.0; }
 
-/// relocalization.csv (a row a scan), trajectory.tum (answers only) and summary.json in `folder`.
+/// Compares answers with the truth. `true_query` has one pose for each scan of the log, in the world of the map's
+/// truth.
+void judge(const std::vector<RelocalizedScan>& scans, const MapTruth& map, const std::vector<Pose>& true_query,
+           RelocalizationSummary& summary);
+
+/// relocalization.csv (a row a scan; cov_ij: the upper triangle of the covariance, x y z roll pitch yaw),
+/// trajectory.tum (answers only), summary.json and timings.json in `folder`; only the last depends on the machine.
 void write_relocalization(const std::filesystem::path& folder, const std::vector<RelocalizedScan>& scans,
                           const RelocalizationSummary& summary);
 

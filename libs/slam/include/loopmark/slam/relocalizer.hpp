@@ -13,14 +13,16 @@
 
 namespace loopmark {
 
-/// The map as a relocalizer sees it. Thread-compatible; answers must not depend on what was asked before.
+/// The map as a relocalizer sees it. Calls may come from several threads; answers must not depend on what was asked
+/// before.
 class PlaceMap {
  public:
   virtual ~PlaceMap() = default;
 
-  /// Registers a scan (deskewed points, sensor's frame) to the places of the map that look like it: every distinct
-  /// answer with its own probability, in the map's frame.
-  virtual std::vector<PlaceAnswer> search(const PointCloud& scan, std::size_t places) const = 0;
+  /// Registers a scan (deskewed points, sensor's frame) to the `places` of the map that look like it most, and judges
+  /// the poses that are `believed`: every distinct answer once, the most probable first.
+  virtual std::vector<PlaceAnswer> search(const PointCloud& scan, std::size_t places,
+                                          const std::vector<Pose>& believed) const = 0;
 
   /// The map's points within `radius` of a position, map frame.
   virtual std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const = 0;
@@ -37,15 +39,19 @@ struct RelocalizedScan {
   std::size_t scan = 0;
   double stamp_s = 0.0;
   RelocalizationState state = RelocalizationState::kSearching;
+  bool given_up = false;  ///< the place that was known until this scan does not hold; `state` says what came of it
   bool answered = false;  ///< T_map_lidar is given
   Pose T_map_lidar = Pose::Identity();
   Matrix6d covariance = Matrix6d::Identity();  ///< of xi in exp(xi) * T_map_lidar
   double p_correct = 0.0;                      ///< of the place, over all candidates and "none of these"
   double inlier_share = 0.0;                   ///< while tracking: keypoints that fit the map
-  std::string reason;                          ///< why there is no answer, or why it was lost
+  std::string reason;                          ///< why there is no answer, or why the place was lost
 };
 
-/// Fed scan by scan.
+/// Finds the sensor in a map and follows it there; fed scan by scan.
+///
+///   Relocalizer relocalizer(open_place_map(...), {});
+///   const RelocalizedScan where = relocalizer.add(scan);   // where.state, where.T_map_lidar if where.answered
 class Relocalizer {
  public:
   Relocalizer(std::shared_ptr<const PlaceMap> map, const RelocalizationOptions& options,
@@ -53,12 +59,21 @@ class Relocalizer {
               const SweepModel& sweep = {});
   ~Relocalizer();
 
+  /// The next scan, in the order of their stamps.
   RelocalizedScan add(const Scan& scan);
+
+  /// Where the next scan stands, told from outside: tracking begins there without a search, and is given up like any
+  /// other when scans do not fit.
+  void place(const Pose& T_map_lidar);
 
  private:
   struct State;
-  void search(const Scan& scan, const TrackedScan& tracked, RelocalizedScan& answer);
-  void track(const TrackedScan& tracked, RelocalizedScan& answer);
+  TrackedScan follow_own_motion(const Scan& scan, RelocalizedScan& answer);
+  void search(const Scan& scan, TrackedScan tracked, RelocalizedScan& answer);
+  Vector6d correct_first_scan(const Scan& scan, const TrackedScan& tracked, std::vector<PlaceAnswer>& answers);
+  void begin_tracking(const Pose& T_map_odometry, double log_odds);
+  void track(const Scan& scan, const TrackedScan& tracked, RelocalizedScan& answer);
+  Pose verified(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar);
   void lose(const std::string& reason, RelocalizedScan& answer);
 
   std::unique_ptr<State> state_;

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// place_answers RUN RUN_TRUTH LOG LOG_TRUTH OUT.txt [EVERY [FIRST]]: asks the map of a run where each EVERY-th scan of
+/// a log is, each on its own, and writes one row an answer for scripts/fit_places.py and benchmarks/relocalization.py:
+/// scan, metres from its true position to the nearest keyframe, symmetric overlap with the best of the three nearest
+/// ones, errors of the answer (metres, degrees), P(correct), log-odds, then the evidence by name. A scan without any
+/// answer has a row of P 0. RUN_TRUTH, LOG_TRUTH: poses in one world (KITTI or TUM); LOG_TRUTH "-": the log is of
+/// another world, no answer is right.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "loopmark/cloud/deskew.hpp"
+#include "loopmark/cloud/overlap.hpp"
+#include "loopmark/core/progress.hpp"
+#include "loopmark/io/drive_log.hpp"
+#include "loopmark/io/point_files.hpp"
+#include "loopmark/io/trajectory.hpp"
+#include "loopmark/slam/map_truth.hpp"
+#include "loopmark/slam/run_place_map.hpp"
+#include "loopmark/slam/run_records.hpp"
+
+namespace {
+
+using namespace loopmark;
+
+struct Reference {
+  RunFolder run;
+  SolvedMap solved;
+  MapTruth map;
+  std::vector<Pose> query;  ///< empty: another world
+};
+
+struct Nearness {
+  double keyframe_m = 1e6;
+  double overlap = 0.0;
+};
+
+Nearness nearness(const Reference& reference, std::size_t scan, const PointCloud& cloud) {
+  Nearness result;
+  if (reference.query.empty()) {
+    return result;
+  }
+  const Pose T_map_lidar = reference.map.in_map(reference.query[scan]);
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t k = 0; k < reference.solved.keyframes.size(); ++k) {
+    near.emplace_back((reference.solved.T_map_keyframe[k].translation() - T_map_lidar.translation()).norm(), k);
+  }
+  std::sort(near.begin(), near.end());
+  near.resize(std::min<std::size_t>(near.size(), 3));
+  result.keyframe_m = near.front().first;
+  for (const auto& [distance, k] : near) {
+    const PointCloud seen = read_point_file(reference.run.keyframe(k, "pcd")).cloud;
+    const Pose T_keyframe_lidar = reference.solved.T_map_keyframe[k].inverse() * T_map_lidar;
+    result.overlap = std::max(result.overlap, overlap(cloud, seen, T_keyframe_lidar).symmetric);
+  }
+  return result;
+}
+
+/// The scan without its sensor's own motion, which is taken from the true poses of its neighbours.
+PointCloud deskewed_scan(const DriveLog& log, const std::vector<Pose>& truth, std::size_t i) {
+  PointCloud cloud = log.read(i).cloud;
+  if (log.info().motion_compensated.value_or(true) || truth.empty()) {
+    return cloud;
+  }
+  const std::size_t before = i > 0 ? i - 1 : i;
+  const std::size_t behind = std::min(i + 1, log.size() - 1);
+  const Vector6d velocity =
+      log_se3(truth[before].inverse() * truth[behind]) / (log.stamp_s(behind) - log.stamp_s(before));
+  const bool timed = cloud.time_offset_s.size() == cloud.size();
+  cloud.points =
+      deskewed(cloud.points,
+               timed ? cloud.time_offset_s : times_from_azimuth(cloud.points, log.info().sweep.value_or(SweepModel{})),
+               velocity);
+  return cloud;
+}
+
+void write_answers(std::ofstream& out, std::size_t scan, const std::vector<PlaceAnswer>& answers,
+                   const Reference& reference, const Nearness& near) {
+  const std::vector<double> p = probabilities(answers);
+  PlaceBeliefs beliefs({});
+  beliefs.add(answers, Pose::Identity());
+  const bool given = beliefs.decided() && beliefs.best()->p >= RelocalizationOptions().min_p_correct;
+  if (answers.empty()) {
+    out << scan << ' ' << near.keyframe_m << ' ' << near.overlap << " 1000 180 0 -20 0\n";
+  }
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    PoseError error{1000.0, 180.0};
+    if (!reference.query.empty()) {
+      error = reference.map.error(answers[i].T_map_lidar, reference.query[scan]);
+    }
+    out << scan << ' ' << near.keyframe_m << ' ' << near.overlap << ' ' << error.translation_m << ' '
+        << error.rotation_deg << ' ' << p[i] << ' ' << answers[i].log_odds << ' ' << (given && i == 0 ? 1 : 0);
+    for (const auto& [name, value] : answers[i].evidence) {
+      out << ' ' << name << '=' << value;
+    }
+    out << '\n';
+  }
+}
+
+int run(int argc, char** argv) {
+  const RunFolder folder = RunFolder::open(argv[1]);
+  SolvedMap solved = solve_map(read_scan_records(folder), read_loop_records(folder), {}, {});
+  const auto map = open_place_map(folder, solved, {});
+  const MapTruth truth(solved.T_map_scan, read_trajectory(argv[2]).poses);
+  const Reference reference{folder, std::move(solved), truth,
+                            std::string(argv[4]) == "-" ? std::vector<Pose>() : read_trajectory(argv[4]).poses};
+  const auto log = open_log(argv[3]);
+  const std::vector<Pose> truth_of_log = log->truth();
+  const std::size_t every = argc > 6 ? static_cast<std::size_t>(std::atoi(argv[6])) : 1;
+  const std::size_t first = argc > 7 ? static_cast<std::size_t>(std::atoi(argv[7])) : 0;
+  std::ofstream out(argv[5]);
+  Progress progress("scans", (log->size() - first + every - 1) / every);
+  for (std::size_t i = first; i < log->size(); i += every, progress.add()) {
+    const PointCloud cloud = deskewed_scan(*log, truth_of_log, i);
+    write_answers(out, i, map->search(cloud, RelocalizationOptions().places, {}), reference,
+                  nearness(reference, i, cloud));
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 6) {
+    std::fprintf(stderr, "usage: place_answers RUN RUN_TRUTH LOG LOG_TRUTH|- OUT.txt [EVERY [FIRST]]\n");
+    return 2;
+  }
+  return run(argc, argv);
+}

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "loopmark/registration/engine.hpp"
+#include "loopmark/slam/place_beliefs.hpp"
+
+namespace loopmark {
+
+/// What speaks for one answer to "where in the map is this scan?".
+struct PlaceVoices {
+  double registration = 0.0;   ///< log-odds of the answer within its pair of scan and submap
+  double support = 1.0;        ///< submaps of different places that give this answer
+  double signature_lag = 0.0;  ///< distance of its place's signature beyond that of the most alike place
+};
+
+/// Log-odds of the answer against "none of these", among all answers to the scan: linear in the voices, fitted by
+/// scripts/fit_places.py.
+double place_log_odds(const PlaceVoices& voices);
+
+/// The voices as named numbers, in the order that the fit expects.
+Evidence evidence_of(const PlaceVoices& voices);
+
+/// Log-odds against "none of these" of each mode of a pair, from the probabilities that the engine gave them.
+std::vector<double> log_odds_of_modes(const RegistrationResult& result);
+
+}  // namespace loopmark

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "loopmark/odometry/alignment.hpp"
+#include "loopmark/slam/relocalizer.hpp"
+
+namespace loopmark {
+
+/// What a relocalizer remembers from scan to scan.
+struct Relocalizer::State {
+  State(std::shared_ptr<const PlaceMap> m, const RelocalizationOptions& o, const OdometryOptions& odometry_o,
+        Compensation compensation, const SweepModel& sweep)
+      : map(std::move(m)),
+        options(o),
+        odometry_options(odometry_o),
+        odometry(odometry_o, compensation, sweep),
+        beliefs(o) {}
+
+  std::shared_ptr<const PlaceMap> map;
+  RelocalizationOptions options;
+  OdometryOptions odometry_options;
+  Odometry odometry;
+  std::size_t committed = 0;  ///< scans since the motion began or was lost
+  std::optional<double> last_stamp_s;
+  double gap_s = 0.0;  ///< before this scan
+  std::optional<Pose> told;
+
+  PlaceBeliefs beliefs;             ///< while searching
+  std::optional<Pose> searched_at;  ///< T_odometry_lidar of the scan that was registered last
+
+  bool tracking = false;
+  Pose T_map_odometry = Pose::Identity();
+  double log_odds = 0.0;
+  std::size_t misfits = 0;          ///< in a row
+  double usual_share = 0.0;         ///< of keypoints that fit the map; 0: not known yet
+  std::optional<Pose> verified_at;  ///< T_odometry_lidar of the scan that was verified last
+  std::optional<LocalMap> around;   ///< the map around the sensor
+  Eigen::Vector3d around_at = Eigen::Vector3d::Zero();
+
+  void renew_surroundings(const Eigen::Vector3d& position);
+  std::vector<Pose> believed(const Pose& T_odometry_lidar) const;
+  Alignment align_to_map(const PointCloud& cloud, const Pose& predicted);
+};
+
+}  // namespace loopmark

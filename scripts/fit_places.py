@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: loopmark contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fits relocalization's probability: a conditional logit model over all answers to a scan and "none of these".
+
+usage: fit_places.py ANSWERS.txt [ANSWERS.txt ...]     (written by benchmarks/place_answers)
+P_i = exp(w . f_i + b) / (1 + sum_j exp(w . f_j + b)), f: the engine's log-odds of the answer, log(submaps that give it),
+how far its place's signature lags behind the most alike one. Scans of one file are one fold of the cross-validation (a
+town that was not fitted judges). Prints the constants of libs/slam/src/place_confidence.cpp. Needs python3-numpy.
+"""
+import sys
+
+import numpy as np
+
+# +1: the weight may not be negative, -1: not positive.
+SIGNS = {"registration": 1, "support": 1, "signature_lag": -1}
+RIDGE, STEPS, RATE, WRONG = 0.001, 3000, 0.03, 0.5
+RIGHT_M, RIGHT_DEG = 0.6, 5.0
+
+
+def load(file):
+    scans = {}
+    for line in open(file):
+        scan, _, _, error_m, error_deg, _, _, _, *evidence = line.split()
+        entry = scans.setdefault(scan, {"x": [], "right": []})
+        if not evidence:
+            continue
+        values = dict(item.split("=") for item in evidence)
+        f = {key: float(values[key]) for key in SIGNS}
+        f["support"] = np.log(f["support"])
+        entry["x"].append([f[key] for key in SIGNS])
+        entry["right"].append(float(error_m) < RIGHT_M and float(error_deg) < RIGHT_DEG)
+    return list(scans.values())
+
+
+def pack(scans):
+    n, m = len(scans), max([len(s["x"]) for s in scans] + [1])
+    x, there, right = np.zeros((n, m, len(SIGNS))), np.zeros((n, m)), np.zeros((n, m))
+    for row, s in enumerate(scans):
+        count = len(s["x"])
+        if count:
+            x[row, :count], there[row, :count] = s["x"], 1
+            right[row, :count] = np.array(s["right"], float) / max(1, sum(s["right"]))
+    return x, there, right
+
+
+def probabilities(x, there, w, b):
+    odds = np.where(there > 0, x @ w + b, -1e9)
+    top = np.maximum(odds.max(1), 0.0)[:, None]
+    share = np.exp(odds - top) * there
+    return share / (share.sum(1, keepdims=True) + np.exp(-top))
+
+
+def fit(scans):
+    x, there, right = pack(scans)
+    scale = np.sqrt((x ** 2).sum((0, 1)) / there.sum()) + 1e-9
+    signs = np.array(list(SIGNS.values()))
+    x = x / scale
+    w, b = np.zeros(len(SIGNS)), 0.0
+    m, v = np.zeros(len(SIGNS) + 1), np.zeros(len(SIGNS) + 1)
+    for step in range(1, STEPS + 1):
+        slope = (probabilities(x, there, w, b) - right) * there
+        g = np.append(np.einsum("ij,ijk->k", slope, x), slope.sum()) / len(scans)
+        g[:-1] += RIDGE * w
+        m, v = 0.9 * m + 0.1 * g, 0.999 * v + 0.001 * g * g
+        move = RATE * (m / (1 - 0.9 ** step)) / (np.sqrt(v / (1 - 0.999 ** step)) + 1e-8)
+        w, b = w - move[:-1], b - move[-1]
+        w = np.where(signs > 0, np.maximum(w, 0), np.minimum(w, 0))
+    return w / scale, b
+
+
+def judge(scans, w, b):
+    x, there, right = pack(scans)
+    p = probabilities(x, there, w, b)
+    best = p.argmax(1)
+    top, good = p.max(1), right[np.arange(len(scans)), best] > 0
+    return top, good, right.sum(1) > 0
+
+
+def report(name, top, good, findable):
+    given = top >= 0.5
+    bins = np.minimum((top * 10).astype(int), 9)
+    error = sum((bins == k).mean() * abs(top[bins == k].mean() - good[bins == k].mean()) for k in set(bins))
+    print(f"{name}: {len(top)} scans, right among the answers {findable.sum()}, given and right {np.sum(given & good)}, "
+          f"given and wrong {np.sum(given & ~good)}, expected calibration error {error:.3f}")
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    files = [load(name) for name in sys.argv[1:]]
+    if len(files) > 1:
+        parts = [judge(files[i], *fit([s for k, f in enumerate(files) if k != i for s in f])) for i in range(len(files))]
+        for name, part in zip(sys.argv[1:], parts):
+            report("left out " + name, *part)
+        report("all, each left out", *(np.concatenate(column) for column in zip(*parts)))
+    scans = [s for f in files for s in f]
+    w, b = fit(scans)
+    report("fitted", *judge(scans, w, b))
+    print(f"constexpr double kBias = {b:.4f};")
+    for name, weight in zip(("kRegistration", "kSupport", "kSignatureLag"), w):
+        print(f"constexpr double {name} = {weight:.4f};")
+
+
+if __name__ == "__main__":
+    main()
