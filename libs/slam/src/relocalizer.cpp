@@ -165,22 +165,24 @@ void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, Relocalize
   const Alignment found = s.align_to_map(s.odometry.deskewed_cloud(scan, tracked.velocity), predicted);
   const PoseError jump = pose_error(found.T_map_lidar, predicted);
   const double share = found.health.inlier_share;
-  const bool fits = share >= s.options.min_inlier_share && jump.translation_m <= s.options.max_jump_m &&
-                    jump.rotation_deg <= s.options.same_place_deg;
+  bool fits = share >= s.options.min_inlier_share && jump.translation_m <= s.options.max_jump_m &&
+              jump.rotation_deg <= s.options.same_place_deg;
   const bool doubtful =
       share < s.options.doubt_share * s.usual_share || s.gap_s > kGapS || jump.translation_m > kDisagreementM;
-  Pose T_map_lidar = fits ? found.T_map_lidar : predicted;
+  const bool due = !s.verified_at ||
+                   (s.verified_at->inverse() * tracked.T_map_lidar).translation().norm() >= s.options.verify_every_m;
+  Pose T_map_lidar = found.T_map_lidar;
+  if (fits && (due || doubtful)) {
+    T_map_lidar = verified(scan, tracked, found.T_map_lidar);
+    fits = !doubtful || s.verdict >= 0.0;
+  }
   answer.inlier_share = share;
   if (fits) {
-    const bool due = !s.verified_at ||
-                     (s.verified_at->inverse() * tracked.T_map_lidar).translation().norm() >= s.options.verify_every_m;
-    if (due || doubtful) {
-      T_map_lidar = verified(scan, tracked, found.T_map_lidar);
-    }
     s.misfits = 0;
     s.usual_share = s.usual_share == 0.0 ? share : kUsualMemory * s.usual_share + (1.0 - kUsualMemory) * share;
     s.T_map_odometry = T_map_lidar * tracked.T_map_lidar.inverse();
   } else {
+    T_map_lidar = predicted;
     ++s.misfits;
     s.log_odds -= kMisfitOdds;
   }
@@ -197,22 +199,31 @@ void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, Relocalize
   answer.covariance = to_map * found.health.covariance * to_map.transpose();
 }
 
-/// One more piece of evidence for or against the place, from beams and structure rather than from nearest points.
-/// Returns the pose, or that of registration where both are of one place but apart.
+/// One more piece of evidence for or against the place, from beams and structure rather than from nearest points. Where
+/// own motion leads elsewhere than nearest points do (walls let a scan slide along a street), both are judged. Returns
+/// the pose, or that of registration where it is apart; `s.verdict` is what registration says of it.
 Pose Relocalizer::verified(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar) {
   State& s = *state_;
   s.verified_at = tracked.T_map_lidar;
-  double found = -kMostOfOneScan;
+  s.verdict = -kMostOfOneScan;
+  std::vector<Pose> believed = {T_map_lidar};
+  const Pose predicted = s.T_map_odometry * tracked.T_map_lidar;
+  if (pose_error(T_map_lidar, predicted).translation_m > kDisagreementM) {
+    believed.push_back(predicted);
+  }
   Pose better = T_map_lidar;
-  for (const PlaceAnswer& answer : s.map->search(s.odometry.deskewed_cloud(scan, tracked.velocity), 0, {T_map_lidar})) {
-    const PoseError off = pose_error(answer.T_map_lidar, T_map_lidar);
-    if (off.translation_m < s.options.same_place_m && off.rotation_deg < s.options.same_place_deg &&
-        answer.log_odds > found) {
-      found = std::min(answer.log_odds, kMostOfOneScan);
-      better = found > 0.0 && off.translation_m > kDisagreementM ? answer.T_map_lidar : T_map_lidar;
+  for (const PlaceAnswer& answer : s.map->search(s.odometry.deskewed_cloud(scan, tracked.velocity), 0, believed)) {
+    const bool same_place = std::any_of(believed.begin(), believed.end(), [&](const Pose& pose) {
+      const PoseError off = pose_error(answer.T_map_lidar, pose);
+      return off.translation_m < s.options.same_place_m && off.rotation_deg < s.options.same_place_deg;
+    });
+    if (same_place && answer.log_odds > s.verdict) {
+      s.verdict = answer.log_odds;
+      const double off_m = pose_error(answer.T_map_lidar, T_map_lidar).translation_m;
+      better = off_m > kDisagreementM ? answer.T_map_lidar : T_map_lidar;
     }
   }
-  s.log_odds = std::min(s.log_odds + s.options.repeat_weight * found, kMaxLogOdds);
+  s.log_odds = std::min(s.log_odds + s.options.repeat_weight * std::min(s.verdict, kMostOfOneScan), kMaxLogOdds);
   return better;
 }
 

@@ -40,6 +40,7 @@ struct Relocalizer::State {
   double log_odds = 0.0;
   std::size_t misfits = 0;          ///< in a row
   double usual_share = 0.0;         ///< of keypoints that fit the map; 0: not known yet
+  double verdict = 0.0;             ///< log-odds that registration gave the scan that was verified last
   std::optional<Pose> verified_at;  ///< T_odometry_lidar of the scan that was verified last
   std::optional<LocalMap> around;   ///< the map around the sensor
   Eigen::Vector3d around_at = Eigen::Vector3d::Zero();

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Sensory frames of an MRPT rawlog, one by one as a live system would hand them over, placed in the map of a run: pose
+/// and state of each. Usage: mrpt_relocalizer RUN LOG.rawlog
+#include <mrpt/obs/CRawlog.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <cstdio>
+
+#include "loopmark/mrpt_bridge/conversions.hpp"
+#include "loopmark/slam/relocalizer.hpp"
+#include "loopmark/slam/run_place_map.hpp"
+#include "loopmark/slam/run_records.hpp"
+
+int main(int argc, char** argv) try {
+  mrpt::obs::CRawlog frames;
+  if (argc != 3 || !frames.loadFromRawLogFile(argv[2])) {
+    std::fprintf(stderr, "usage: mrpt_relocalizer RUN LOG.rawlog\n");
+    return 2;
+  }
+  const auto run = loopmark::RunFolder::open(argv[1]);
+  const auto solved = loopmark::solve_map(read_scan_records(run), read_loop_records(run), {}, {});
+  loopmark::Relocalizer relocalizer(loopmark::open_place_map(run, solved, {}), {});
+  for (const auto& object : frames) {
+    mrpt::obs::CSensoryFrame frame;
+    if (const auto one = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) frame.insert(one);
+    if (const auto many = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) frame = *many;
+    if (const auto scan = loopmark::scan_from_sensory_frame(frame)) {
+      const loopmark::RelocalizedScan where = relocalizer.add(*scan);
+      const auto pose = loopmark::to_mrpt(where.T_map_lidar, where.covariance);
+      std::printf("%.2f s  %s  P(correct) %.3f  %s\n", where.stamp_s, name(where.state), where.p_correct,
+                  where.answered ? pose.mean.asString().c_str() : where.reason.c_str());
+    }
+  }
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "error: %s\n", error.what());
+  return 2;
+}
