@@ -17,7 +17,7 @@ namespace loopmark::testing_support {
 /// `count` (at most 110) raw sweeps with a time for every point, 0.1 s apart at 10 m/s, `offset_m` to the left of the
 /// lane. `seed`: of the street; `noise`: of the ranges. What was at `log` is removed.
 inline void write_passing_log(const std::filesystem::path& log, double offset_m, std::uint64_t noise, int count = 110,
-                             std::uint64_t seed = 5) {
+                              std::uint64_t seed = 5) {
   std::filesystem::remove_all(log);
   std::filesystem::create_directories(log);
   const BoxWorld world = street(140.0, seed);

@@ -208,8 +208,8 @@ void Mapper::start_piece(const Scan& scan, const std::string& problem, Placed& p
 }
 
 /// Global registration to the latest keyframes of the piece: two answers that agree, even if neither is sure by itself
-/// (what deceives a registration moves along with the sensor, and so says different places for different keyframes), or a sure one where the piece has
-/// no second keyframe.
+/// (what deceives a registration moves along with the sensor, and so says different places for different keyframes), or
+/// a sure one where the piece has no second keyframe.
 bool Mapper::recover(const Scan& scan, Placed& placed) const {
   if (!registrar_) {
     return false;
