@@ -3,6 +3,7 @@
 // loopmark drill as a user runs it, on a short drive through a synthetic street.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,7 +20,10 @@ namespace fs = std::filesystem;
 using testing_support::ProgramResult;
 using testing_support::run_program;
 
-fs::path scratch(const std::string& name) { return fs::path(testing::TempDir()) / ("loopmark_drill_test_" + name); }
+/// Below a folder of this process alone: tests run side by side.
+fs::path scratch(const std::string& name) {
+  return fs::path(testing::TempDir()) / ("loopmark_drill_" + std::to_string(::getpid())) / name;
+}
 
 fs::path make_log(const std::string& name, double offset_m, std::uint64_t noise) {
   const fs::path log = scratch(name);
@@ -30,6 +34,7 @@ fs::path make_log(const std::string& name, double offset_m, std::uint64_t noise)
 class Drill : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
+    fs::create_directories(scratch("").parent_path());
     log_ = make_log("log", 0.0, 0);
     run_ = fresh("run");
     const ProgramResult mapped =
@@ -38,6 +43,8 @@ class Drill : public ::testing::Test {
     const auto summary = nlohmann::json::parse(read_file(run_ / "summary.json"));
     ASSERT_LT(summary["ate_rmse_m"], 0.1) << "the map itself";
   }
+
+  static void TearDownTestSuite() { fs::remove_all(scratch("").parent_path()); }
 
   static fs::path fresh(const std::string& name) {
     const fs::path path = scratch(name);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
 #include <tuple>
 
 #include "loopmark/cloud/voxel.hpp"
@@ -45,8 +46,14 @@ std::vector<Row> rows(const PointCloud& cloud) {
   return result;
 }
 
+/// A file of this test alone: tests run side by side.
+fs::path scratch() {
+  return fs::path(testing::TempDir()) /
+         (std::string("loopmark_thin_cloud_test_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+}
+
 std::vector<Row> tiled(const std::vector<PointCloud>& clouds, std::size_t in_memory) {
-  TiledCloud tiles(kVoxel_m, fs::path(testing::TempDir()) / "loopmark_thin_cloud_test", in_memory);
+  TiledCloud tiles(kVoxel_m, scratch(), in_memory);
   for (const PointCloud& cloud : clouds) {
     tiles.add(cloud);
   }
@@ -72,7 +79,7 @@ TEST(TiledCloud, HoldsTheFirstPointOfEachVoxelInTheSameOrderAtAnyMemory) {
   std::sort(expected.begin(), expected.end());
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, expected);
-  EXPECT_FALSE(fs::exists(fs::path(testing::TempDir()) / "loopmark_thin_cloud_test"));
+  EXPECT_FALSE(fs::exists(scratch()));
 }
 
 TEST(TiledCloud, IntensityStaysOnlyWhereAllHaveIt) {
