@@ -11,8 +11,8 @@ real: the last 20 scans of balm_loop against a map of the first 80 (right within
 a map of the even ones, its last third against a map of the first two thirds (0.6 m); judged by the logs' poses.txt.
 simulated: day 1 (HDL-64E) is mapped; queries of day 2 (other parked cars) driven in the left lane, the other way, with an
 HDL-32E, with an OS1-64 the other way, and of another town. What is in WORK already is taken as it is.
-A pose is given when P(correct) >= 0.5, no other answer is more than a quarter as probable, and the scan fits no other place
-(log-odds 2); right within 5 deg. table tells what the same answers come to.
+Whether a pose was given is what the relocalizer decides (docs/relocalization.md); right within 5 deg. table tells what
+answers that are there come to.
 """
 import argparse
 import json

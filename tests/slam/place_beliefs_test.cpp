@@ -58,6 +58,13 @@ TEST(PlaceBeliefs, APlaceThatTheLatestScanFitsIsARivalHoweverFarBehind) {
   beliefs.add({fits(10.0, moved(9.0), -0.5)}, moved(9.0));
   EXPECT_FALSE(beliefs.decided()) << "now it does not fit itself";
 
+  PlaceBeliefs clear({});
+  clear.add({fits(10.0, moved(0.0), 7.0), fits(300.0, moved(0.0), 2.5)}, moved(0.0));
+  EXPECT_TRUE(clear.decided()) << "the other one is doubtful and far behind";
+  PlaceBeliefs close({});
+  close.add({fits(10.0, moved(0.0), 4.5), fits(300.0, moved(0.0), 2.5)}, moved(0.0));
+  EXPECT_FALSE(close.decided()) << "doubtful, but not far behind";
+
   PlaceBeliefs beside({});
   beside.add({fits(10.0, moved(0.0), 8.0), fits(12.0, moved(0.0), 4.0)}, moved(0.0));
   EXPECT_TRUE(beside.decided()) << "2 m apart they are one place: the lead decides";

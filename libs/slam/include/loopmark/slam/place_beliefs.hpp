@@ -46,7 +46,7 @@ class PlaceBeliefs {
   std::optional<PlaceBelief> best() const;
 
   /// Whether the most probable place is min_lead times as probable as the next one, the latest scan fits it, and fits
-  /// no other place (5 m or 20 degrees away) from log-odds of 2 on. Where two places are alike, the lead of one over
+  /// no other place (5 m or 20 degrees away) too: see kSureLogOdds. Where two places are alike, the lead of one over
   /// the other comes from what has changed since (parked cars); only a scan that does not fit one of them tells.
   bool decided() const;
 
