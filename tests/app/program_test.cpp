@@ -63,8 +63,8 @@ TEST(ProgramOptions, DefaultFileIsTheDumpOfTheDefaults) {
 
 TEST(ProgramOptions, DumpIsCheckedAsFine) {
   const std::string file = testing::TempDir() + "loopmark_program_test.yaml";
-  EXPECT_EQ(run_program({"config", "dump", "-o", file, "--set", "registration.seed=7"}).exit_code, 0);
-  EXPECT_THAT(read_file(file), HasSubstr("seed: 7 "));
+  EXPECT_EQ(run_program({"config", "dump", "-o", file, "--set", "registration.hypotheses=7"}).exit_code, 0);
+  EXPECT_THAT(read_file(file), HasSubstr("hypotheses: 7 "));
   const ProgramResult check = run_program({"config", "check", file});
   EXPECT_EQ(check.exit_code, 0) << check.output;
   const ProgramResult again = run_program({"--config", file, "config", "dump"});
@@ -73,12 +73,12 @@ TEST(ProgramOptions, DumpIsCheckedAsFine) {
 
 TEST(ProgramOptions, UnknownKeyNamesFileLineAndTheNearest) {
   const std::string file = testing::TempDir() + "loopmark_program_wrong_test.yaml";
-  std::ofstream(file) << "registration:\n  sede: 7\n";
+  std::ofstream(file) << "registration:\n  hypotheces: 7\n";
   const ProgramResult result = run_program({"config", "dump", "--config", file});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.output, HasSubstr(file + ":2: unknown option 'registration.sede'"));
-  EXPECT_THAT(result.output, HasSubstr("did you mean 'registration.seed'?"));
-  EXPECT_EQ(run_program({"config", "dump", "--set", "registration.seed=x"}).exit_code, 2);
+  EXPECT_THAT(result.output, HasSubstr(file + ":2: unknown option 'registration.hypotheces'"));
+  EXPECT_THAT(result.output, HasSubstr("did you mean 'registration.hypotheses'?"));
+  EXPECT_EQ(run_program({"config", "dump", "--set", "registration.hypotheses=x"}).exit_code, 2);
 }
 
 }  // namespace

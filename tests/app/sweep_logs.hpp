@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -19,13 +20,23 @@
 
 namespace loopmark::testing_support {
 
-/// Logs and runs of one test program, below a folder of its own.
-struct StreetLogs {
+/// Logs and runs of one process of a test program, below a folder of its own, which goes with it.
+class StreetLogs {
+ public:
   static constexpr int kScans = 24;
-  std::string name;  ///< of the test program
+
+  explicit StreetLogs(const std::string& name)
+      : folder_(std::filesystem::path(testing::TempDir()) / ("loopmark_" + name + "_" + std::to_string(::getpid()))) {}
+  ~StreetLogs() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  StreetLogs(const StreetLogs&) = delete;
+  StreetLogs& operator=(const StreetLogs&) = delete;
 
   std::filesystem::path scratch(const std::string& what) const {
-    return std::filesystem::path(testing::TempDir()) / ("loopmark_" + name + "_" + what);
+    std::filesystem::create_directories(folder_);
+    return folder_ / what;
   }
 
   /// A log of sweeps with a time for every point, driven at 10 m/s through a gentle curve from the first scan on.
@@ -67,6 +78,9 @@ struct StreetLogs {
     std::filesystem::remove_all(run.string() + ".partial");
     return run;
   }
+
+ private:
+  std::filesystem::path folder_;
 };
 
 /// The words of `loopmark map LOG -o RUN MORE...` for such a log.
