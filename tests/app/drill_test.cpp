@@ -54,8 +54,10 @@ class Drill : public ::testing::Test {
   }
 
   static ProgramResult drill(const fs::path& what, const fs::path& output, std::vector<std::string> more = {}) {
-    std::vector<std::string> words = {
-        "drill", what, "-o", output, "-q", "--events", "6", "--set", "drill.outages_s=[0.5,1]"};
+    std::vector<std::string> words = {"drill", what, "-o", output, "-q", "--set", "drill.outages_s=[0.5,1]"};
+    if (std::find(more.begin(), more.end(), "--events") == more.end()) {
+      words.insert(words.end(), {"--events", "6"});
+    }
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words);
   }
