@@ -19,9 +19,7 @@ constexpr double kMostOfOneScan = 4.0;     ///< log-odds that one verification m
 constexpr double kMaxLogOdds = 9.0;
 constexpr double kWorthCorrecting = -2.0;  ///< log-odds of an answer to a distorted scan
 constexpr double kToldLogOdds = 3.0;       ///< of a pose that was told from outside
-constexpr double kGapS = 0.3;              ///< a longer gap between two scans is a reason to verify
-constexpr double kDisagreementM = 0.3;  ///< between map and own motion in one scan, or nearest points and registration
-constexpr double kUsualMemory = 0.9;    ///< of the usual share of fitting keypoints, a scan
+constexpr double kUsualMemory = 0.9;       ///< of the usual share of fitting keypoints, a scan
 
 double probability(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
@@ -155,6 +153,7 @@ void Relocalizer::begin_tracking(const Pose& T_map_odometry, double log_odds) {
   s.log_odds = std::min(log_odds, kMaxLogOdds);
   s.misfits = 0;
   s.usual_share = 0.0;
+  s.last_in_map.reset();
   s.verified_at.reset();
 }
 
@@ -181,8 +180,10 @@ void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, Relocalize
     s.misfits = 0;
     s.usual_share = s.usual_share == 0.0 ? share : kUsualMemory * s.usual_share + (1.0 - kUsualMemory) * share;
     s.T_map_odometry = T_map_lidar * tracked.T_map_lidar.inverse();
+    s.mend_own_motion(tracked, T_map_lidar, predicted);
   } else {
     T_map_lidar = predicted;
+    s.last_in_map.reset();
     ++s.misfits;
     s.log_odds -= kMisfitOdds;
   }

@@ -13,6 +13,9 @@
 
 namespace loopmark {
 
+constexpr double kGapS = 0.3;           ///< a longer gap between two scans is a reason to verify
+constexpr double kDisagreementM = 0.3;  ///< between map and own motion in one scan, or nearest points and registration
+
 /// What a relocalizer remembers from scan to scan.
 struct Relocalizer::State {
   State(std::shared_ptr<const PlaceMap> m, const RelocalizationOptions& o, const OdometryOptions& odometry_o,
@@ -41,12 +44,18 @@ struct Relocalizer::State {
   std::size_t misfits = 0;          ///< in a row
   double usual_share = 0.0;         ///< of keypoints that fit the map; 0: not known yet
   double verdict = 0.0;             ///< log-odds that registration gave the scan that was verified last
+  std::optional<Pose> last_in_map;  ///< T_map_lidar of the scan before, where it fitted
   std::optional<Pose> verified_at;  ///< T_odometry_lidar of the scan that was verified last
   std::optional<LocalMap> around;   ///< the map around the sensor
   Eigen::Vector3d around_at = Eigen::Vector3d::Zero();
 
   void renew_surroundings(const Eigen::Vector3d& position);
+  /// Own motion that leads elsewhere than the map, which registration was asked about, begins anew with the map's
+  /// motion: along smooth walls a sensor may seem to stand still.
+  void mend_own_motion(const TrackedScan& tracked, const Pose& T_map_lidar, const Pose& predicted);
   std::vector<Pose> believed(const Pose& T_odometry_lidar) const;
+  /// With near matches only and with far ones, whichever holds more keypoints: walls may draw a scan along, and the own
+  /// motion may be wrong.
   Alignment align_to_map(const PointCloud& cloud, const Pose& predicted);
 };
 
