@@ -11,10 +11,13 @@ import json
 import map_common as common
 
 
+NEAR = 12  # scans: a crossing is 7 m long and keyframes stand metres apart, so its loops may begin beside it
+
+
 def closed_by(revisit, loops):
     """How many loops join the stretch to the earlier one."""
-    back = range(int(revisit["first_scan"]), int(revisit["last_scan"]) + 1)
-    first = range(int(revisit["earlier_first_scan"]), int(revisit["earlier_last_scan"]) + 1)
+    back = range(int(revisit["first_scan"]) - NEAR, int(revisit["last_scan"]) + 1 + NEAR)
+    first = range(int(revisit["earlier_first_scan"]) - NEAR, int(revisit["earlier_last_scan"]) + 1 + NEAR)
     return sum((s in back and t in first) or (t in back and s in first) for s, t, _ in loops)
 
 
