@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands.hpp"
 #include "drill_run.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/files.hpp"
-#include "map_run.hpp"
+#include "map_job.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -56,14 +55,9 @@ void declare(CLI::App& command, DrillArguments& a) {
 bool is_run(const fs::path& path) { return fs::exists(path / "records" / "scans.rec"); }
 
 /// Maps the log into OUT.partial/map.
-fs::path map_of(const DrillArguments& a, const fs::path& partial, const AppOptions& options) {
-  const MapJob job{fs::absolute(a.what), a.job.map_truth.empty() ? fs::path() : fs::absolute(a.job.map_truth)};
+fs::path map_of(const DrillArguments& a, const fs::path& partial, const Globals& globals, const AppOptions& options) {
   fs::create_directories(partial);
-  const RunFolder folder = RunFolder::create(partial / "map");
-  const nlohmann::ordered_json json = {{"log", job.log.string()}, {"truth", job.truth.string()}};
-  write_file_atomically(folder / "config.yaml", options_as_yaml(options));
-  write_file_atomically(folder / "records/job.json", json.dump(1) + "\n");
-  run_map(folder, job, options);
+  start_map(a.what, a.job.map_truth, partial / "map", globals, options);
   return partial / "map";
 }
 
@@ -95,7 +89,7 @@ int drill(const DrillArguments& a, const Globals& globals) {
     }
   }
   DrillJob job = a.job;
-  job.run = is_run(a.what) ? a.what : map_of(a, partial, options);
+  job.run = is_run(a.what) ? a.what : map_of(a, partial, globals, options);
   const DrillResult result = run_drill(job, a.what.string(), options);
   fs::create_directories(partial);
   write_drill(partial, result);
