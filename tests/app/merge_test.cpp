@@ -148,6 +148,27 @@ TEST_F(Merge, ExtendMapsALogAndJoinsIt) {
   EXPECT_FALSE(fs::exists(at("x.drive.partial")));
 }
 
+TEST_F(Merge, ExtendSaysWhichEarlierDriveNoLongerHangsTogetherAndGoesOn) {
+  const BoxWorld here = street(80.0, 5);
+  map("there", driven(here, 0, 45, 0.0));
+  map("edge", driven(here, 80, 38, 0.0));
+  const ProgramResult merged = run_program({"merge", at("there"), at("edge"), "-o", at("run"), "--one-frame", "-q"});
+  ASSERT_EQ(merged.exit_code, 0) << merged.output;
+  const nlohmann::json joint = summary("run")["joints"][0];
+  const std::size_t few = joint["loops"].get<std::size_t>();
+  const std::string more = log("more", driven(here, 45, 0, 0.0), 24);
+  const ProgramResult result = run_program({"extend", at("run"), more, "--one-frame", "-q", "--set",
+                                            "slam.compensation=compensated", "--set",
+                                            "pose_graph.min_links=" + std::to_string(few + 1)});
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("warning: drive 'edge' (42 scans) does not belong and is left out: "));
+  const nlohmann::json extended = summary("run");
+  EXPECT_EQ(extended["scans"], 90) << "those that hang together";
+  EXPECT_EQ(extended["components"], 1);
+  EXPECT_LT(extended["ate_rmse_m"].get<double>(), 0.25);
+  EXPECT_EQ(summary("run.before-1")["scans"], 87) << "nothing is thrown away";
+}
+
 TEST_F(Merge, SaysWhatIsWrongWithTheRuns) {
   const SyntheticRun made(folder_ / "one");
   fs::copy(folder_ / "one", folder_ / "copy", fs::copy_options::recursive);
