@@ -3,10 +3,10 @@
 /// place_answers RUN RUN_TRUTH LOG LOG_TRUTH OUT.txt [EVERY [FIRST]]: asks the map of a run where each EVERY-th scan of
 /// a log is, each on its own, and writes one row an answer for scripts/fit_places.py and benchmarks/relocalization.py:
 /// scan, metres from its true position to the nearest keyframe, symmetric overlap with the best of the three nearest
-/// ones, errors of the answer (metres, degrees), P(correct), log-odds, whether it is given, then the evidence by name and
-/// "truth", the engine's log-odds at the true pose itself (high where no answer is right: its place was not asked). A
-/// scan without any answer has a row of P 0. RUN_TRUTH, LOG_TRUTH: poses in one world (KITTI or TUM); LOG_TRUTH "-": the log is of
-/// another world, no answer is right.
+/// ones, errors of the answer (metres, degrees), P(correct), log-odds, whether it is given, then the evidence by name
+/// and "truth", the engine's log-odds at the true pose itself (high where no answer is right: its place was not asked).
+/// A scan without any answer has a row of P 0. RUN_TRUTH, LOG_TRUTH: poses in one world (KITTI or TUM); LOG_TRUTH "-":
+/// the log is of another world, no answer is right.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

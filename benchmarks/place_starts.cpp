@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 /// place_starts RUN RUN_TRUTH LOG LOG_TRUTH|- OUT.txt STARTS SECONDS: starts a relocalizer, which knows nothing, at
-/// STARTS places spread over a log, feeds it the scans of SECONDS as they are in the log, and writes one row a start for
-/// benchmarks/relocalization.py: scan; metres from its true position to the nearest scan of the map; what the first scan
-/// gave (1 right, -1 wrong, 0 nothing); seconds of driving until the first right pose (-1: none); metres driven until
-/// then or the end; answers; wrong ones; P(correct) and error (metres, degrees) of the first wrong one, or of the last
-/// answer; why the last scan has no pose. RUN_TRUTH, LOG_TRUTH: poses in one world; LOG_TRUTH "-": the log is of
+/// STARTS places spread over a log, feeds it the scans of SECONDS as they are in the log, and writes one row a start
+/// for benchmarks/relocalization.py: scan; metres from its true position to the nearest scan of the map; what the first
+/// scan gave (1 right, -1 wrong, 0 nothing); seconds of driving until the first right pose (-1: none); metres driven
+/// until then or the end; answers; wrong ones; P(correct) and error (metres, degrees) of the first wrong one, or of the
+/// last answer; why the last scan has no pose. RUN_TRUTH, LOG_TRUTH: poses in one world; LOG_TRUTH "-": the log is of
 /// another world, every answer is wrong.
 #include <algorithm>
 #include <cstdio>

@@ -68,10 +68,10 @@ class RelocalizationOnLogs : public ::testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   nlohmann::json relocalize(std::vector<std::string> more) const {
-    std::vector<std::string> words = {"relocalize",       folder_ / "run",
-                                      folder_ / "odd",    "-o",
-                                      folder_ / "where",  "-q",
-                                      "--map-truth",      folder_ / "even" / "poses.txt"};
+    std::vector<std::string> words = {"relocalize",      folder_ / "run",
+                                      folder_ / "odd",   "-o",
+                                      folder_ / "where", "-q",
+                                      "--map-truth",     folder_ / "even" / "poses.txt"};
     words.insert(words.end(), more.begin(), more.end());
     fs::remove_all(folder_ / "where");
     const ProgramResult result = run_program(words);
