@@ -59,7 +59,7 @@ Nearness nearness(const Reference& reference, const PlaceMap& map, std::size_t s
     const Pose T_keyframe_lidar = reference.solved.T_map_keyframe[k].inverse() * T_map_lidar;
     result.overlap = std::max(result.overlap, overlap(cloud, seen, T_keyframe_lidar).symmetric);
   }
-  for (const PlaceAnswer& answer : map.search(cloud, 0, {T_map_lidar})) {
+  for (const PlaceAnswer& answer : map.judge(cloud, {T_map_lidar})) {
     if (is_right(pose_error(answer.T_map_lidar, T_map_lidar))) {
       result.log_odds = std::max(result.log_odds, answer.log_odds);
     }
