@@ -6,11 +6,12 @@
 /// scan gave (1 right, -1 wrong, 0 nothing); seconds of driving until the first right pose (-1: none); metres driven
 /// until then or the end; answers; wrong ones; P(correct) and error (metres, degrees) of the first wrong one, or of the
 /// last answer; why the last scan has no pose. RUN_TRUTH, LOG_TRUTH: poses in one world; LOG_TRUTH "-": the log is of
-/// another world, every answer is wrong.
+/// another world, every answer is wrong. Rows come as starts are done.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
 #include <string>
 
 #include "loopmark/core/parallel.hpp"
@@ -94,6 +95,12 @@ Start started_at(const Stage& stage, std::size_t first, double limit_s) {
   return start;
 }
 
+void write_row(std::ostream& out, const Start& s) {
+  out << s.scan << ' ' << s.mapped_m << ' ' << s.first_scan << ' ' << s.right_s << ' ' << s.driven_m << ' ' << s.answers
+      << ' ' << s.wrong << ' ' << s.p << ' ' << s.error.translation_m << ' ' << s.error.rotation_deg << ' ' << s.reason
+      << std::endl;
+}
+
 int run(char** argv) {
   const RunFolder folder = RunFolder::open(argv[1]);
   const SolvedMap solved = solve_map(read_scan_records(folder), read_loop_records(folder), {}, {});
@@ -109,18 +116,16 @@ int run(char** argv) {
   while (usable > 1 && stage.log->stamp_s(usable - 1) > end_s) {
     --usable;
   }
-  std::vector<Start> starts(std::min(count, usable));
-  Progress progress("starts", starts.size());
-  parallel_for(starts.size(), [&](std::size_t i) {
-    starts[i] = started_at(stage, i * usable / starts.size(), limit_s);
+  const std::size_t starts = std::min(count, usable);
+  std::ofstream out(argv[5]);
+  std::mutex mutex;
+  Progress progress("starts", starts);
+  parallel_for(starts, [&](std::size_t i) {
+    const Start start = started_at(stage, i * usable / starts, limit_s);
+    const std::scoped_lock lock(mutex);
+    write_row(out, start);
     progress.add();
   });
-  std::ofstream out(argv[5]);
-  for (const Start& s : starts) {
-    out << s.scan << ' ' << s.mapped_m << ' ' << s.first_scan << ' ' << s.right_s << ' ' << s.driven_m << ' '
-        << s.answers << ' ' << s.wrong << ' ' << s.p << ' ' << s.error.translation_m << ' ' << s.error.rotation_deg
-        << ' ' << s.reason << '\n';
-  }
   return 0;
 }
 

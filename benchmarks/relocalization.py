@@ -5,7 +5,7 @@
 
 usage: relocalization.py real LOGS WORK                  balm_loop and kitti_raw_city below LOGS
        relocalization.py simulated WORK [--length 1000] [--asked 1000] [--town 22] [--elsewhere 23] [--scans 60]
-                                   [--starts 60]
+                                   [--starts 60] [--events 0]
        relocalization.py fitting WORK [--length 500] [--towns 411:tour,412:twins,413:explore] [--scans 30]
        relocalization.py table NAME=ANSWERS.txt ... [--metres 0.6]
 
@@ -14,8 +14,8 @@ a map of the even ones, its last third against a map of the first two thirds (0.
 simulated: day 1 (HDL-64E) is mapped; queries of day 2 (other parked cars) driven in the left lane, the other way, with an
 HDL-32E, with an OS1-64 the other way, and of another town: single scans, each on its own and without its motion during
 the sweep (place_answers), and relocalizers started at places all over the logs, which take scans as they are
-(place_starts: what the first scan gives, and the first 2 s of driving). --asked: metres of each drive of day 2; scans
-farther than 10 m from the map do not count.
+(place_starts: what the first scan gives, and the first 2 s of driving); then a drill of --events, the drive of the other
+direction taking part. --asked: metres of each drive of day 2; scans farther than 10 m from the map do not count.
 fitting: the same logs of small towns, single scans only, for scripts/fit_places.py; one file of answers a town.
 What is in WORK already is taken as it is; --again asks the maps anew. Whether a pose was given is what the relocalizer
 decides (docs/relocalization.md); right within 5 deg. table tells what answers that are there come to.
@@ -24,6 +24,7 @@ import argparse
 import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -208,6 +209,22 @@ def simulated(tools, work, a):
             tools.starts(*asked, out, a.starts, a.seconds if not elsewhere else 0.5)
             print(row_of_starts(f"town {town} {name}", out, elsewhere), Path(f"{out}.cost").read_text().strip(),
                   flush=True)
+    if a.events > 0:
+        drill(tools, work, a)
+
+
+def drill(tools, work, a):
+    """Cuts in day 1, and in the drive of day 2 that goes the other way."""
+    town, out = a.town, work / f"t{a.town}-drill"
+    if a.again and out.exists():
+        shutil.rmtree(out)
+    if not out.exists():
+        run([tools.loopmark, "drill", "-q", work / f"t{town}-run", "-o", out, "--events", a.events, "--drive",
+             work / f"t{town}-rev", "--truth", work / f"t{town}-rev/town_poses.txt", "--map-truth",
+             work / f"t{town}-day1/town_poses.txt"], f"{out}.log")
+    for name, counts in json.loads((out / "summary.json").read_text())["by"].items():
+        events = counts["events"]
+        print(f"drill {name:20} in time {share(counts['in_time'], events):36} wrong {share(counts['wrong'], events)}")
 
 
 def fitting(tools, work, a):
@@ -245,6 +262,7 @@ def main():
     parser.add_argument("--elsewhere", type=int, default=23)
     parser.add_argument("--scans", type=int)
     parser.add_argument("--starts", type=int, default=60)
+    parser.add_argument("--events", type=int, default=0)
     parser.add_argument("--seconds", type=float, default=2.0)
     parser.add_argument("--metres", type=float, default=0.6)
     parser.add_argument("--again", action="store_true")
