@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "loopmark/odometry/odometry.hpp"
+
+namespace loopmark {
+
+constexpr std::size_t kLeastStructure = 4;  // keypoints above the ground that can tell one answer from another
+constexpr double kUsualGapS = 0.2;          // longer gaps between scans make the prediction less certain
+
+/// A guess of where the scan is; how its motion follows from the last scan unless the guess says otherwise.
+struct Odometry::Start {
+  Pose T_map_lidar;
+  Vector6d velocity;
+};
+
+}  // namespace loopmark
