@@ -12,10 +12,8 @@
 namespace loopmark {
 namespace {
 
-constexpr double kStartM = 15.0;    // a piece starts within this distance
-constexpr double kFastest = 35.0;   // m/s
-constexpr double kFarthest = 20.0;  // metres between the first two scans, of what is searched
-constexpr double kMostSteps = 50.0;
+constexpr double kStartM = 15.0;           // a piece starts within this distance
+constexpr double kFastest = 35.0;          // m/s
 constexpr std::size_t kMostPoints = 3000;  // of a scan's structure, for a first look
 
 /// The points of a scan that rise from the ground, not more than kMostPoints.
@@ -75,10 +73,8 @@ std::vector<Odometry::Start> Odometry::straight_starts(const TrackedScan& prepar
   constexpr double kStepVoxels = 0.3;
   constexpr std::size_t kKept = 4;
   const double gap_s = gap_to(prepared.stamp_s);
-  const double farthest_m = std::min(kFastest * gap_s, kFarthest);
-  const double step_m = std::max(kStepVoxels * map_->voxel_m(), farthest_m / kMostSteps);
   std::vector<Start> tried;
-  for (const Pose& T_last_lidar : straight_motions(step_m, farthest_m)) {
+  for (const Pose& T_last_lidar : straight_motions(kStepVoxels * map_->voxel_m(), kFastest * gap_s)) {
     tried.push_back({last_->T_map_lidar * T_last_lidar, log_se3(T_last_lidar) / gap_s});
   }
   TrackedScan first = *last_;
