@@ -26,7 +26,6 @@ struct NormalEquations {
   std::size_t inliers = 0;
   std::size_t matches = 0;
   std::size_t left_out = 0;  // ground that says nothing
-  std::size_t structure_inliers = 0;
 
   NormalEquations& operator+=(const NormalEquations& other) {
     H += other.H;
@@ -36,7 +35,6 @@ struct NormalEquations {
     inliers += other.inliers;
     matches += other.matches;
     left_out += other.left_out;
-    structure_inliers += other.structure_inliers;
     return *this;
   }
 };
@@ -75,7 +73,6 @@ void add_match(NormalEquations& sums, const Eigen::Vector3d& lever, const Eigen:
   }
   if (inlier) {
     ++sums.inliers;
-    sums.structure_inliers += ground ? 0 : 1;
     sums.squares += across * across;
   }
 }
@@ -98,16 +95,12 @@ NormalEquations linearize(const Keypoints& keypoints, const LocalMap& map, const
                                  [](NormalEquations& total, const NormalEquations& part) { total += part; });
 }
 
-/// Where nothing holds the motion, the start does.
+/// Where nothing holds the translation, the start does.
 void hold(NormalEquations& sums, const Pose& T, const Pose& T_start) {
-  constexpr double kShare = 1e-4;   // of the weight of the matches
-  constexpr double kLeverM = 10.0;  // a rotation counts as what it moves at this range
+  constexpr double kShare = 1e-3;  // of the weight of the matches
   const double weight = kShare * static_cast<double>(sums.matches);
   sums.H.diagonal().head<3>().array() += weight;
   sums.b.head<3>() += weight * (T.translation() - T_start.translation());
-  const Eigen::AngleAxisd turned(T.linear() * T_start.linear().transpose());
-  sums.H.diagonal().tail<3>().array() += weight * kLeverM * kLeverM;
-  sums.b.tail<3>() += weight * kLeverM * kLeverM * turned.angle() * turned.axis();
 }
 
 void step(Pose& T, const Vector6d& xi) {
@@ -164,15 +157,6 @@ Health judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T, 
   return health;
 }
 
-void count_structure(const NormalEquations& sums, const Keypoints& keypoints, Health& health) {
-  if (keypoints.ground.empty()) {
-    return;
-  }
-  health.structure = static_cast<std::size_t>(std::count(keypoints.ground.begin(), keypoints.ground.end(), false));
-  health.structure_share =
-      health.structure > 0 ? static_cast<double>(sums.structure_inliers) / static_cast<double>(health.structure) : 0.0;
-}
-
 }  // namespace
 
 Alignment align(const Keypoints& keypoints, const LocalMap& map, const Pose& T_map_lidar, double threshold_m,
@@ -196,7 +180,6 @@ Alignment align(const Keypoints& keypoints, const LocalMap& map, const Pose& T_m
     converged = xi.norm() < kConverged;
   }
   result.health = judge(sums, keypoints.points.size() - sums.left_out, result.T_map_lidar, options);
-  count_structure(sums, keypoints, result.health);
   result.health.iterations = iteration;
   result.health.converged = converged;
   return result;
