@@ -24,9 +24,10 @@ constexpr double kDependence = 20.0;     // patches that say the same thing: nei
 
 constexpr const char* kLandmarks = "landmarks";
 constexpr std::size_t kOwnFinalists = 3;
+constexpr std::size_t kChance = 9;  // so many peaks higher, and a peak is chance's
 
-/// Of a motion that did not come from the correlation: as one that leads by a usual height.
-constexpr PeakHeights kNoRival = {12.0, 12.0};
+/// Of a motion that did not come from the correlation: as one that stands out as right ones do.
+constexpr PeakHeights kNoRival = {12.0, 4.0};
 
 /// The guesses of landmarks and of the bird's-eye view: planar motions between the levelled frames.
 std::vector<Candidate> hypothesize(const PreparedScan::Data& source, const PreparedScan::Data& target,
@@ -40,12 +41,12 @@ std::vector<Candidate> hypothesize(const PreparedScan::Data& source, const Prepa
     candidates.push_back(candidate);
   };
   const auto planar = birdseye::correlate(source.above, target.above, options.correlation);
-  const double highest = planar.empty() ? 0.0 : planar.front().score;
+  const double usual = planar.empty() ? 0.0 : planar[std::min(kChance, planar.size() - 1)].score;
   for (const auto& h : birdseye::match_landmarks(source.landmarks, target.landmarks, options.landmarks)) {
-    add(h, kLandmarks, {0.0, highest});
+    add(h, kLandmarks, {0.0, usual});
   }
   for (const auto& h : planar) {
-    add(h, "birdseye", {h.score, highest});
+    add(h, "birdseye", {h.score, usual});
   }
   return candidates;
 }

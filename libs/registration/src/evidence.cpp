@@ -208,7 +208,7 @@ Features Inquiry::features(const Alignment& alignment, const PeakHeights& peak) 
           0.5 * (landmark_score(*source_.landmarks, *target_.landmarks, T) +
                  landmark_score(*target_.landmarks, *source_.landmarks, T.inverse())),
           std::min(peak.own, 60.0),
-          share(peak.own, peak.highest),
+          std::clamp(std::log((peak.own + 0.1) / (peak.usual + 0.1)), -1.0, 2.0),
           std::log1p(a.ground + b.ground),
           (a.ground_step + b.ground_step + 0.1 * kDoubt) / (a.ground + b.ground + kDoubt),
           std::exp(-0.1 * T.translation().norm())};

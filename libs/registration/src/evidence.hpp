@@ -37,12 +37,13 @@ struct Testimony {
 constexpr std::size_t kFeatures = 17;
 using Features = std::array<double, kFeatures>;
 /// agreement: share of the structure that is met. absence, clash, conflict: what speaks against, logarithmic. objects,
-/// support: how much is met, logarithmic. contradicted: cells, logarithmic. ground: how much ground is shared
-/// (logarithmic) and how far it gapes, metres. lead: the correlation peak against the highest of its pair. landmarks:
-/// their score.
+/// support: how much is met, logarithmic. contradicted: cells, logarithmic. landmarks: their score. peak: height of the
+/// correlation peak; rise: against chance's, logarithmic (not against the highest: of two places that look alike both
+/// rise, and only one leads). ground: how much ground is shared (logarithmic) and how far it gapes, metres. near: of
+/// the sensors to each other.
 constexpr std::array<std::string_view, kFeatures> kFeatureNames = {
     "agreement", "low_absence", "tall_clash",   "object_clash", "far_conflict", "contradicted", "tall_contradicted",
-    "residual",  "objects",     "tall_support", "far_support",  "landmarks",    "peak",         "lead",
+    "residual",  "objects",     "tall_support", "far_support",  "landmarks",    "peak",         "rise",
     "ground",    "ground_gap",  "near"};
 
 /// A feature by its name.
@@ -54,10 +55,10 @@ constexpr double feature(const Features& features, std::string_view name) {
   return features[i];
 }
 
-/// The height of a hypothesis's correlation peak (0 where it has none), and of the highest of the same pair.
+/// The height of a hypothesis's correlation peak (0 where it has none), and of the tenth of the same pair: chance's.
 struct PeakHeights {
   double own = 0.0;
-  double highest = 0.0;
+  double usual = 0.0;
 };
 
 constexpr std::size_t kAllAsked = 2000;  ///< patches of structure that are asked where time does not press
