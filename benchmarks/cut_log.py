@@ -3,12 +3,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A simulated log with scans taken out and one jump, as a new log of links to the same scans.
 
-  cut_log.py LOG CUT --cuts 5,10,20,40,60 --jump 90
+  cut_log.py LOG CUT --cuts 5,10,20,40,60 --jump 60
 
 Cuts of so many seconds are spread evenly over the drive. The jump takes out so many seconds in the middle and closes up
-the stamps, so that the sensor seems to be elsewhere from one scan to the next. Needs nothing but Python.
+the stamps, so that the sensor seems to be elsewhere from one scan to the next. The cuts come in the order in which, by
+the true poses, the pieces share most places: parts that share none cannot become one map. It says how many scans the
+weakest tie between pieces has (scans within 8 m of another piece). Needs nothing but Python.
 """
 import argparse
+import itertools
+import math
 import os
 import pathlib
 import shutil
@@ -35,16 +39,52 @@ def kept_scans(stamps, cuts, jump_s):
     return kept
 
 
+def near_scans(positions, every, near_m=8.0):
+    """Pairs of every n-th scan that are near each other."""
+    chosen = range(0, len(positions), every)
+    return [(i, j) for i in chosen for j in chosen if j < i and math.dist(positions[i], positions[j]) < near_m]
+
+
+def weakest_tie(kept, near, every):
+    """Scans that hold the pieces together where they hold together least: on the strongest ties that join all."""
+    piece, pieces = {kept[0]: 0}, 1
+    for before, scan in zip(kept, kept[1:]):
+        pieces += scan != before + 1
+        piece[scan] = pieces - 1
+    ties = {}
+    for i, j in near:
+        if i in piece and j in piece and piece[i] != piece[j]:
+            ties.setdefault(tuple(sorted((piece[i], piece[j]))), set()).add(i)
+    joined, weakest = {0}, len(kept)
+    while len(joined) < pieces:
+        ways = [(len(scans), pair) for pair, scans in ties.items() if (pair[0] in joined) != (pair[1] in joined)]
+        if not ways:
+            return 0
+        strength, pair = max(ways)
+        joined.update(pair)
+        weakest = min(weakest, strength * every)
+    return weakest
+
+
+def best_order(stamps, positions, cuts, jump_s, every=5):
+    near = near_scans(positions, every)
+    orders = sorted(set(itertools.permutations(cuts)))
+    return max((weakest_tie([scan for scan, _ in kept_scans(stamps, order, jump_s)], near, every), order)
+               for order in orders)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("log", type=pathlib.Path)
     parser.add_argument("cut", type=pathlib.Path)
     parser.add_argument("--cuts", default="5,10,20,40,60")
-    parser.add_argument("--jump", type=float, default=90.0)
+    parser.add_argument("--jump", type=float, default=60.0)
     a = parser.parse_args()
     stamps = [float(line) for line in (a.log / "times.txt").read_text().split()]
     poses = (a.log / "poses.txt").read_text().splitlines()
-    kept = kept_scans(stamps, [float(c) for c in a.cuts.split(",")], a.jump)
+    positions = [[float(line.split()[k]) for k in (3, 7, 11)] for line in poses]
+    tie, cuts = best_order(stamps, positions, [float(c) for c in a.cuts.split(",")], a.jump)
+    kept = kept_scans(stamps, cuts, a.jump)
     (a.cut / "velodyne").mkdir(parents=True)
     for number, (scan, _) in enumerate(kept):
         os.symlink((a.log / "velodyne" / f"{scan:06d}.bin").resolve(), a.cut / "velodyne" / f"{number:06d}.bin")
@@ -52,7 +92,8 @@ def main():
     (a.cut / "poses.txt").write_text("".join(poses[scan] + "\n" for scan, _ in kept))
     for name in ("calib.txt", "sweep.txt"):
         shutil.copy(a.log / name, a.cut / name)
-    print(f"{a.cut}: {len(kept)} of {len(stamps)} scans")
+    print(f"{a.cut}: {len(kept)} of {len(stamps)} scans, cuts of {', '.join(f'{c:g}' for c in cuts)} s, "
+          f"the weakest tie between pieces has {tie} scans")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@
 # A simulated drive with revisits, whole and cut five times (5 to 60 s) with one jump: does the map heal, and how far is
 # it from the truth?
 #   benchmarks/healing.sh FOLDER          what is there already is not made again
-# LOOPMARK_HEALING_LENGTH: metres (default 5000); LOOPMARK_HEALING_SENSOR (vlp16); LOOPMARK_HEALING_RATE: Hz (5).
+# LOOPMARK_HEALING_LENGTH: metres (default 3000); LOOPMARK_HEALING_SENSOR (hdl64e); LOOPMARK_HEALING_RATE: Hz (10);
+# LOOPMARK_HEALING_TOWN (401).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 # shellcheck source=scripts/lib.sh
@@ -14,8 +15,8 @@ folder=${1:?usage: benchmarks/healing.sh FOLDER}
 loopmark=${LOOPMARK:-$build_dir/apps/loopmark/loopmark}
 mkdir -p "$folder"
 
-[[ -d $folder/drive ]] || "$loopmark" simulate -o "$folder/drive" --length "${LOOPMARK_HEALING_LENGTH:-5000}" \
-  --sensor "${LOOPMARK_HEALING_SENSOR:-vlp16}" --rate "${LOOPMARK_HEALING_RATE:-5}" --seed 5
+[[ -d $folder/drive ]] || "$loopmark" simulate -o "$folder/drive" --length "${LOOPMARK_HEALING_LENGTH:-3000}" \
+  --sensor "${LOOPMARK_HEALING_SENSOR:-hdl64e}" --rate "${LOOPMARK_HEALING_RATE:-10}" --town "${LOOPMARK_HEALING_TOWN:-401}"
 [[ -d $folder/cut ]] || "$here/cut_log.py" "$folder/drive" "$folder/cut"
 for log in drive cut; do
   [[ -d $folder/run_$log ]] || "$loopmark" map "$folder/$log" -o "$folder/run_$log"

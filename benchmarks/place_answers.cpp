@@ -3,9 +3,10 @@
 /// place_answers RUN RUN_TRUTH LOG LOG_TRUTH OUT.txt [EVERY [FIRST]]: asks the map of a run where each EVERY-th scan of
 /// a log is, each on its own, and writes one row an answer for scripts/fit_places.py and benchmarks/relocalization.py:
 /// scan, metres from its true position to the nearest keyframe, symmetric overlap with the best of the three nearest
-/// ones, errors of the answer (metres, degrees), P(correct), log-odds, then the evidence by name. A scan without any
-/// answer has a row of P 0. RUN_TRUTH, LOG_TRUTH: poses in one world (KITTI or TUM); LOG_TRUTH "-": the log is of
-/// another world, no answer is right.
+/// ones, errors of the answer (metres, degrees), P(correct), log-odds, whether it is given, then the evidence by name
+/// and "truth", the engine's log-odds at the true pose itself (high where no answer is right: its place was not asked).
+/// A scan without any answer has a row of P 0. RUN_TRUTH, LOG_TRUTH: poses in one world (KITTI or TUM); LOG_TRUTH "-":
+/// the log is of another world, no answer is right.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -19,6 +20,7 @@
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/slam/map_truth.hpp"
+#include "loopmark/slam/relocalization_report.hpp"
 #include "loopmark/slam/run_place_map.hpp"
 #include "loopmark/slam/run_records.hpp"
 
@@ -36,9 +38,10 @@ struct Reference {
 struct Nearness {
   double keyframe_m = 1e6;
   double overlap = 0.0;
+  double log_odds = -20.0;  ///< that the map gives the true pose
 };
 
-Nearness nearness(const Reference& reference, std::size_t scan, const PointCloud& cloud) {
+Nearness nearness(const Reference& reference, const PlaceMap& map, std::size_t scan, const PointCloud& cloud) {
   Nearness result;
   if (reference.query.empty()) {
     return result;
@@ -55,6 +58,11 @@ Nearness nearness(const Reference& reference, std::size_t scan, const PointCloud
     const PointCloud seen = read_point_file(reference.run.keyframe(k, "pcd")).cloud;
     const Pose T_keyframe_lidar = reference.solved.T_map_keyframe[k].inverse() * T_map_lidar;
     result.overlap = std::max(result.overlap, overlap(cloud, seen, T_keyframe_lidar).symmetric);
+  }
+  for (const PlaceAnswer& answer : map.judge(cloud, {T_map_lidar})) {
+    if (is_right(pose_error(answer.T_map_lidar, T_map_lidar))) {
+      result.log_odds = std::max(result.log_odds, answer.log_odds);
+    }
   }
   return result;
 }
@@ -96,7 +104,7 @@ void write_answers(std::ofstream& out, std::size_t scan, const std::vector<Place
     for (const auto& [name, value] : answers[i].evidence) {
       out << ' ' << name << '=' << value;
     }
-    out << '\n';
+    out << " truth=" << near.log_odds << '\n';
   }
 }
 
@@ -116,7 +124,7 @@ int run(int argc, char** argv) {
   for (std::size_t i = first; i < log->size(); i += every, progress.add()) {
     const PointCloud cloud = deskewed_scan(*log, truth_of_log, i);
     write_answers(out, i, map->search(cloud, RelocalizationOptions().places, {}), reference,
-                  nearness(reference, i, cloud));
+                  nearness(reference, *map, i, cloud));
   }
   return 0;
 }

@@ -3,18 +3,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fits relocalization's probability: a conditional logit model over all answers to a scan and "none of these".
 
-usage: fit_places.py ANSWERS.txt [ANSWERS.txt ...]     (written by benchmarks/place_answers)
-P_i = exp(w . f_i + b) / (1 + sum_j exp(w . f_j + b)), f: the engine's log-odds of the answer, log(submaps that give it),
-how far its place's signature lags behind the most alike one. Scans of one file are one fold of the cross-validation (a
-town that was not fitted judges). Prints the constants of libs/slam/src/place_confidence.cpp. Needs python3-numpy.
+usage: fit_places.py ANSWERS.txt [ANSWERS.txt ...]     (written by benchmarks/relocalization.py fitting)
+P_i = exp(l_i) / (1 + sum_j exp(l_j)), l_i = w . f_i + v . (g_i - g_best) + b. f: the engine's log-odds of the answer, log
+of the submaps that give it, how far its place's signature lags behind the most alike one. g: evidence that is compared
+with that of the answer of which the engine is surest: where several places fit, it says which fits better. Scans of one
+file are one fold of the cross-validation (a town that was not fitted judges). Prints the constants of
+libs/slam/src/place_confidence.cpp. Needs python3-numpy.
 """
 import sys
 
 import numpy as np
 
 # +1: the weight may not be negative, -1: not positive.
-SIGNS = {"registration": 1, "support": 1, "signature_lag": -1}
-RIDGE, STEPS, RATE, WRONG = 0.001, 3000, 0.03, 0.5
+SIGNS = {"registration": 1, "submaps": 1, "signature_lag": -1}
+COMPARED = {"agreement": 1, "tall_presence": 1, "low_clash": -1, "tall_clash": -1, "ground_gap": -1}
+MOST_LAG = 0.03  # a lag beyond it says no more: another sensor or a changed place may lag far
+WEIGHTS = {**SIGNS, **COMPARED}
+RIDGE, STEPS, RATE, WRONG = 0.003, 3000, 0.03, 0.5
 RIGHT_M, RIGHT_DEG = 0.6, 5.0
 
 
@@ -25,17 +30,23 @@ def load(file):
         entry = scans.setdefault(scan, {"x": [], "right": []})
         if not evidence:
             continue
-        values = dict(item.split("=") for item in evidence)
-        f = {key: float(values[key]) for key in SIGNS}
-        f["support"] = np.log(f["support"])
-        entry["x"].append([f[key] for key in SIGNS])
+        values = {name: float(value) for name, value in (item.split("=") for item in evidence)}
+        values["submaps"] = np.log(values["submaps"])
+        values["signature_lag"] = min(values["signature_lag"], MOST_LAG)
+        entry["x"].append([values[key] for key in WEIGHTS])
         entry["right"].append(float(error_m) < RIGHT_M and float(error_deg) < RIGHT_DEG)
+    for entry in scans.values():
+        if entry["x"]:
+            x = np.array(entry["x"])
+            best = x[x[:, 0].argmax()]
+            x[:, len(SIGNS):] -= best[len(SIGNS):]
+            entry["x"] = x
     return list(scans.values())
 
 
 def pack(scans):
     n, m = len(scans), max([len(s["x"]) for s in scans] + [1])
-    x, there, right = np.zeros((n, m, len(SIGNS))), np.zeros((n, m)), np.zeros((n, m))
+    x, there, right = np.zeros((n, m, len(WEIGHTS))), np.zeros((n, m)), np.zeros((n, m))
     for row, s in enumerate(scans):
         count = len(s["x"])
         if count:
@@ -54,10 +65,10 @@ def probabilities(x, there, w, b):
 def fit(scans):
     x, there, right = pack(scans)
     scale = np.sqrt((x ** 2).sum((0, 1)) / there.sum()) + 1e-9
-    signs = np.array(list(SIGNS.values()))
+    signs = np.array(list(WEIGHTS.values()))
     x = x / scale
-    w, b = np.zeros(len(SIGNS)), 0.0
-    m, v = np.zeros(len(SIGNS) + 1), np.zeros(len(SIGNS) + 1)
+    w, b = np.zeros(len(WEIGHTS)), 0.0
+    m, v = np.zeros(len(WEIGHTS) + 1), np.zeros(len(WEIGHTS) + 1)
     for step in range(1, STEPS + 1):
         slope = (probabilities(x, there, w, b) - right) * there
         g = np.append(np.einsum("ij,ijk->k", slope, x), slope.sum()) / len(scans)
@@ -98,8 +109,8 @@ def main():
     w, b = fit(scans)
     report("fitted", *judge(scans, w, b))
     print(f"constexpr double kBias = {b:.4f};")
-    for name, weight in zip(("kRegistration", "kSupport", "kSignatureLag"), w):
-        print(f"constexpr double {name} = {weight:.4f};")
+    for name, weight in zip(WEIGHTS, w):
+        print(f"{name:16} {weight:.4f}")
 
 
 if __name__ == "__main__":

@@ -29,7 +29,8 @@ constexpr const char* kExamples = R"(Examples:
                                                               another sensor; options as in: loopmark config dump
 The log is mapped with the run's options (but for those of reading logs and of compensation), as by loopmark map. When it
 does not belong to the run, nothing is changed, and its own map is kept as OUTPUT.drive; so it is when the program is
-interrupted: go on with loopmark map --resume OUTPUT.drive, then loopmark merge.)";
+interrupted: go on with loopmark map --resume OUTPUT.drive, then loopmark merge. A drive of the run that no longer hangs
+together with the others (loops vetoed since, other options) is left out with a warning; the old run still holds it.)";
 
 void declare(CLI::App& command, ExtendArguments& a) {
   command.add_option("RUN", a.run, "run folder of loopmark map or merge")->required();
@@ -59,15 +60,16 @@ AppOptions options_for_log(const fs::path& run, const Globals& globals) {
   return options;
 }
 
-/// The run and the log's map as one. Throws InputError, having changed nothing, when a drive would be left out.
+/// The run and the log's map as one. Throws InputError, having changed nothing, when the log's drive does not belong;
+/// an earlier drive that no longer hangs together with the others is left out with a warning.
 MergeOutcome join(const ExtendArguments& a, const Globals& globals, const fs::path& drive, fs::path& before) {
   const MergeInput input = read_runs({a.run, drive});
   const AppOptions options = config::load<AppOptions>(a.run / "config.yaml", globals.settings);
   RunInMaking run(a.output.empty() ? RunFolder::revise(a.run) : RunFolder::create(a.output));
   MergeOutcome outcome =
       merge_runs(input, run.folder(), options, a.one_frame, {"extend", a.run.string(), a.log.string()});
-  if (!outcome.warnings.empty()) {
-    throw InputError(outcome.warnings.front());
+  if (!outcome.map.summary.drives.back().belongs) {
+    throw InputError(outcome.warnings.back());
   }
   if (a.output.empty()) {
     before = run.finish_revision();

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "loopmark/core/files.hpp"
 #include "street_log.hpp"
@@ -44,6 +47,16 @@ class Merge : public ::testing::Test {
   }
   nlohmann::json summary(const std::string& run) const {
     return nlohmann::json::parse(read_file(folder_ / run / "summary.json"));
+  }
+
+  /// Candidates of a run that stand in its records more than once.
+  std::ptrdiff_t pairs_tried_twice(const std::string& run) const {
+    std::istringstream csv(read_file(folder_ / run / "loops.csv"));
+    std::multiset<std::string> pairs;
+    for (std::string line; std::getline(csv, line);) {
+      pairs.insert(line.substr(0, line.find(',', line.find(',') + 1)));
+    }
+    return std::count_if(pairs.begin(), pairs.end(), [&](const std::string& pair) { return pairs.count(pair) > 1; });
   }
 
   fs::path folder_;
@@ -94,6 +107,7 @@ TEST_F(Merge, DrivesOfOneStreetBecomeOneMapAndAForeignOneIsLeftOut) {
   ASSERT_EQ(again.exit_code, 0) << again.output;
   EXPECT_EQ(summary("town2")["scans"], 220);
   EXPECT_EQ(summary("town2")["drives"].size(), 4U);
+  EXPECT_EQ(pairs_tried_twice("town2"), 0) << "those of the earlier drives are on record";
   EXPECT_LT(summary("town2")["ate_rmse_m"].get<double>(), 0.25);
   const ProgramResult twice = run_program({"merge", at("town2"), at("thin"), "-o", at("town3")});
   EXPECT_EQ(twice.exit_code, 2);
@@ -146,6 +160,25 @@ TEST_F(Merge, ExtendMapsALogAndJoinsIt) {
   EXPECT_EQ(extend({at("nowhere"), more, "-o", at("x")}).exit_code, 2);
   EXPECT_EQ(extend({at("run"), at("nowhere"), "-o", at("x")}).exit_code, 2);
   EXPECT_FALSE(fs::exists(at("x.drive.partial")));
+}
+
+TEST_F(Merge, ExtendSaysWhichEarlierDriveNoLongerHangsTogetherAndGoesOn) {
+  const BoxWorld here = street(80.0, 5);
+  map("there", driven(here, 0, 45, 0.0));
+  map("edge", driven(here, 80, 52, 0.0));
+  const ProgramResult merged = run_program({"merge", at("there"), at("edge"), "-o", at("run"), "--one-frame", "-q"});
+  ASSERT_EQ(merged.exit_code, 0) << merged.output;
+  const std::string more = log("more", driven(here, 45, 0, 0.0), 24);
+  const ProgramResult result =
+      run_program({"extend", at("run"), more, "--one-frame", "-q", "--set", "slam.compensation=compensated", "--set",
+                   "slam.piece_candidates=1", "--set", "pose_graph.min_links=14"});
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("warning: drive 'edge' (28 scans) does not belong and is left out: "));
+  const nlohmann::json extended = summary("run");
+  EXPECT_EQ(extended["scans"], 90) << "those that hang together";
+  EXPECT_EQ(extended["components"], 1);
+  EXPECT_LT(extended["ate_rmse_m"].get<double>(), 0.25);
+  EXPECT_EQ(summary("run.before-1")["scans"], 73) << "nothing is thrown away";
 }
 
 TEST_F(Merge, SaysWhatIsWrongWithTheRuns) {

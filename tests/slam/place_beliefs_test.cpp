@@ -41,33 +41,37 @@ TEST(PlaceBeliefs, ALeaderThatHardlyLeadsIsNotDecided) {
   EXPECT_GT(beliefs.best()->p, RelocalizationOptions().min_p_correct);
   EXPECT_FALSE(beliefs.decided());
   PlaceBeliefs clear({});
-  clear.add({answer(10.0, 0.99), answer(300.0, 0.85)}, moved(0.0));
-  EXPECT_TRUE(clear.decided()) << "99 : 6 : 1";
+  clear.add({answer(10.0, 0.99), answer(300.0, 0.45)}, moved(0.0));
+  EXPECT_TRUE(clear.decided()) << "99 : 0.8 : 1";
 }
 
-TEST(PlaceBeliefs, APlaceThatTheLatestScanFitsIsARivalHoweverFarBehind) {
+TEST(PlaceBeliefs, APlaceThatTheLatestScanFitsNearlyAsWellIsARival) {
   const auto fits = [](double x, const Pose& here, double log_odds) {
     return PlaceAnswer{answer(x, 0.5).T_map_lidar * here, Matrix6d::Identity(), log_odds};
   };
   PlaceBeliefs beliefs({});
-  beliefs.add({fits(10.0, moved(0.0), 8.0), fits(300.0, moved(0.0), 4.0)}, moved(0.0));
-  EXPECT_GT(beliefs.best()->p, 0.95);
+  beliefs.add({fits(10.0, moved(0.0), 6.0), fits(300.0, moved(0.0), 3.5)}, moved(0.0));
+  EXPECT_GT(beliefs.best()->p, 0.9);
   EXPECT_FALSE(beliefs.decided()) << "both places fit";
-  beliefs.add({fits(10.0, moved(5.0), 3.0), fits(300.0, moved(5.0), -3.0)}, moved(5.0));
+  beliefs.add({fits(10.0, moved(5.0), 3.0), fits(300.0, moved(5.0), 0.5)}, moved(5.0));
+  EXPECT_GT(beliefs.best()->log_odds - beliefs.all()[1].log_odds, 3.0);
+  EXPECT_FALSE(beliefs.decided()) << "the latest scan alone does not tell them apart";
+  beliefs.add({fits(10.0, moved(7.0), 3.0), fits(300.0, moved(7.0), -3.0)}, moved(7.0));
   EXPECT_TRUE(beliefs.decided()) << "the other one does not fit any more";
   beliefs.add({fits(10.0, moved(9.0), -0.5)}, moved(9.0));
   EXPECT_FALSE(beliefs.decided()) << "now it does not fit itself";
 
   PlaceBeliefs clear({});
-  clear.add({fits(10.0, moved(0.0), 7.0), fits(300.0, moved(0.0), 2.5)}, moved(0.0));
-  EXPECT_TRUE(clear.decided()) << "the other one is doubtful and far behind";
-  PlaceBeliefs close({});
-  close.add({fits(10.0, moved(0.0), 4.5), fits(300.0, moved(0.0), 2.5)}, moved(0.0));
-  EXPECT_FALSE(close.decided()) << "doubtful, but not far behind";
+  clear.add({fits(10.0, moved(0.0), 7.0), fits(300.0, moved(0.0), 3.5)}, moved(0.0));
+  EXPECT_TRUE(clear.decided()) << "the other one is far behind";
+  PlaceBeliefs changed({});
+  changed.add({fits(10.0, moved(0.0), 2.0), fits(300.0, moved(0.0), 4.0)}, moved(0.0));
+  changed.add({fits(10.0, moved(5.0), 5.5), fits(300.0, moved(5.0), 1.5)}, moved(5.0));
+  EXPECT_FALSE(changed.decided()) << "the latest scan tells them apart, but all together do not";
 
   PlaceBeliefs beside({});
-  beside.add({fits(10.0, moved(0.0), 8.0), fits(12.0, moved(0.0), 4.0)}, moved(0.0));
-  EXPECT_TRUE(beside.decided()) << "2 m apart they are one place: the lead decides";
+  beside.add({fits(10.0, moved(0.0), 6.0), fits(12.0, moved(0.0), 4.0)}, moved(0.0));
+  EXPECT_TRUE(beside.decided()) << "2 m apart they are one place: min_lead decides";
 }
 
 TEST(PlaceBeliefs, TwoAlikePlacesStayUndecidedHoweverOftenBothAreSeen) {

@@ -81,6 +81,18 @@ TEST(LogOddsOfModes, UndoTheEnginesProbabilities) {
   EXPECT_TRUE(log_odds_of_modes({}).empty());
 }
 
+TEST(PlaceLogOdds, FallWhereTheBestAnswerFitsBetter) {
+  const Evidence best = {{"agreement", 0.3}, {"tall_presence", 0.8}, {"tall_clash", -5.0}, {"low_clash", -4.0}};
+  const Evidence worse = {{"tall_clash", -3.0}, {"agreement", 0.2}, {"tall_presence", 0.6}, {"ground_gap", 0.1}};
+  const Comparison beyond = compared(worse, best);
+  EXPECT_NEAR(beyond[0], -0.1, 1e-12) << "agreement";
+  EXPECT_NEAR(beyond[1], -0.2, 1e-12) << "tall_presence";
+  EXPECT_EQ(beyond[2], 0.0) << "low_clash is not known of one of them";
+  EXPECT_NEAR(beyond[3], 2.0, 1e-12) << "tall_clash";
+  EXPECT_EQ(beyond[4], 0.0) << "nor the gap of the ground";
+  EXPECT_LT(place_log_odds({3.0, 1.0, 0.0, beyond}), place_log_odds({3.0, 1.0, 0.0, compared(best, best)}));
+}
+
 TEST(PlaceLogOdds, GrowWithWhatTheEngineSays) {
   EXPECT_GT(place_log_odds({3.0, 1.0, 0.0}), place_log_odds({1.0, 1.0, 0.0}));
   EXPECT_GE(place_log_odds({3.0, 3.0, 0.0}), place_log_odds({3.0, 1.0, 0.0}));

@@ -59,6 +59,10 @@ Pairs pairs_of(const std::vector<LoopRecord>& loops) {
   return pairs;
 }
 
+std::vector<LoopRecord> first_of(const std::vector<LoopRecord>& loops, std::size_t count) {
+  return {loops.begin(), loops.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 /// A pair of places by how alike they are; the order makes ties repeatable.
 using Alike = std::tuple<double, std::size_t, std::size_t>;
 
@@ -222,9 +226,12 @@ void LoopCloser::close(const std::vector<ScanRecord>& scans, std::vector<LoopRec
   const std::vector<Keyframe> keyframes = keyframes_of(scans);
   Work work{keyframes, loops, given, keep, report, given};
   // Candidates follow from what was known before them alone, so that those on record are the first ones.
-  attempt(work, places(keyframes));
+  std::vector<LoopRecord> todo = places(keyframes);
+  const Pairs before = pairs_of(first_of(loops, given));
+  std::erase_if(todo, [&](const LoopRecord& record) { return before.count({record.source, record.target}) > 0; });
+  attempt(work, std::move(todo));
   for (std::size_t round = 0, components = keyframes.size() + 1; round < kRounds; ++round) {
-    const std::vector<LoopRecord> known(loops.begin(), loops.begin() + static_cast<std::ptrdiff_t>(work.known));
+    const std::vector<LoopRecord> known = first_of(loops, work.known);
     const SolvedMap map = solve_keyframes(keyframes, known, options_, graph_options_);
     if (map.components == 1 || map.components >= components) {
       return;

@@ -11,9 +11,7 @@ namespace {
 constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
 constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
 constexpr double kElsewhereDeg = 20.0;
-constexpr double kSureLogOdds = 3.5;   ///< of a scan at another place: it fits there too
-constexpr double kMaybeLogOdds = 2.0;  ///< it may,
-constexpr double kClearLead = 3.0;     ///< unless the log-odds of the best place are larger by this
+constexpr double kClearLead = 3.0;     ///< in log-odds, over another place that the latest scan fits too
 constexpr double kUnconfirmed = -5.0;  ///< log-odds that stand for a scan that does not confirm a place
 constexpr double kForgotten = -4.0;    ///< log-odds below which a place is dropped
 
@@ -107,9 +105,8 @@ bool PlaceBeliefs::decided() const {
   return std::none_of(beliefs_.begin() + 1, beliefs_.end(), [&](const PlaceBelief& other) {
     const PoseError apart = pose_error(other.T_map_odometry * latest_, best.T_map_odometry * latest_);
     const bool elsewhere = apart.translation_m > kElsewhereM || apart.rotation_deg > kElsewhereDeg;
-    const bool fits_too =
-        other.latest >= kSureLogOdds || (other.latest >= kMaybeLogOdds && best.log_odds - other.log_odds < kClearLead);
-    return best.p < options_.min_lead * other.p || (elsewhere && fits_too);
+    const double lead = std::min(best.log_odds - other.log_odds, best.latest - other.latest);
+    return best.p < options_.min_lead * other.p || (elsewhere && other.latest >= 0.0 && lead < kClearLead);
   });
 }
 

@@ -4,26 +4,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace loopmark {
 namespace {
 
-constexpr double kBias = 0.0;
-constexpr double kRegistration = 1.0;
+constexpr double kBias = -1.58;
+constexpr double kRegistration = 1.31;
 constexpr double kSupport = 0.0;
-constexpr double kSignatureLag = 0.0;
+constexpr double kSignatureLag = -74.3;
+constexpr double kMostLag = 0.03;  // a lag beyond it says no more
+
+constexpr Comparison kBeyondBest = {7.8, 6.24, 0.0, -0.558, -42.6};  // in the order of kCompared
 
 constexpr double kLeastP = 1e-9;
 
+double number_named(const Evidence& evidence, std::string_view name) {
+  const auto found = std::find_if(evidence.begin(), evidence.end(), [&](const auto& e) { return e.first == name; });
+  return found == evidence.end() ? std::nan("") : found->second;
+}
+
 }  // namespace
+
+Comparison compared(const Evidence& evidence, const Evidence& best) {
+  Comparison beyond{};
+  for (std::size_t i = 0; i < kCompared.size(); ++i) {
+    const double difference = number_named(evidence, kCompared[i]) - number_named(best, kCompared[i]);
+    beyond[i] = std::isfinite(difference) ? difference : 0.0;
+  }
+  return beyond;
+}
 
 double place_log_odds(const PlaceVoices& voices) {
   return kBias + kRegistration * voices.registration + kSupport * std::log(voices.support) +
-         kSignatureLag * voices.signature_lag;
+         kSignatureLag * std::min(voices.signature_lag, kMostLag) +
+         std::inner_product(kBeyondBest.begin(), kBeyondBest.end(), voices.beyond_best.begin(), 0.0);
 }
 
 Evidence evidence_of(const PlaceVoices& voices) {
-  return {{"registration", voices.registration}, {"support", voices.support}, {"signature_lag", voices.signature_lag}};
+  return {{"registration", voices.registration}, {"submaps", voices.support}, {"signature_lag", voices.signature_lag}};
 }
 
 std::vector<double> log_odds_of_modes(const RegistrationResult& result) {

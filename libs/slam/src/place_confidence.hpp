@@ -2,17 +2,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "loopmark/registration/engine.hpp"
 #include "loopmark/slam/place_beliefs.hpp"
 
 namespace loopmark {
+
+/// The engine's evidence by which answers at different places are compared (docs/registration.md says what each is).
+constexpr std::array<std::string_view, 5> kCompared = {"agreement", "tall_presence", "low_clash", "tall_clash",
+                                                       "ground_gap"};
+using Comparison = std::array<double, kCompared.size()>;
 
 /// What speaks for one answer to "where in the map is this scan?".
 struct PlaceVoices {
   double registration = 0.0;   ///< log-odds of the answer within its pair of scan and submap
   double support = 1.0;        ///< submaps of different places that give this answer
   double signature_lag = 0.0;  ///< distance of its place's signature beyond that of the most alike place
+  Comparison beyond_best{};    ///< evidence minus that of the answer of which the engine is surest
 };
+
+/// `evidence` minus `best`; zero where either lacks a number.
+Comparison compared(const Evidence& evidence, const Evidence& best);
 
 /// Log-odds of the answer against "none of these", among all answers to the scan: linear in the voices, fitted by
 /// scripts/fit_places.py.

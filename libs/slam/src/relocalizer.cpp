@@ -18,6 +18,7 @@ constexpr double kMisfitOdds = 1.5;        ///< taken from the log-odds of a pla
 constexpr double kMostOfOneScan = 4.0;     ///< log-odds that one verification may add or take
 constexpr double kMaxLogOdds = 9.0;
 constexpr double kWorthCorrecting = -2.0;  ///< log-odds of an answer to a distorted scan
+constexpr std::size_t kRivals = 6;         ///< answers to a distorted scan that are judged again without the distortion
 constexpr double kToldLogOdds = 3.0;       ///< of a pose that was told from outside
 constexpr double kUsualMemory = 0.9;       ///< of the usual share of fitting keypoints, a scan
 
@@ -100,16 +101,38 @@ Vector6d Relocalizer::correct_first_scan(const Scan& scan, const TrackedScan& tr
   if (!found) {
     return tracked.velocity;
   }
-  std::vector<PlaceAnswer> again =
-      s.map->search(s.odometry.deskewed_cloud(scan, found->velocity), 0, {found->T_map_lidar});
-  const bool better = !again.empty() && again.front().log_odds >= best.log_odds;
-  best.T_map_lidar = better ? again.front().T_map_lidar : found->T_map_lidar;
-  best.log_odds = better ? again.front().log_odds : best.log_odds;
+  judge_again(s.odometry.deskewed_cloud(scan, found->velocity), found->T_map_lidar, answers);
   TrackedScan moving = tracked;  // so that the next scan is expected where this motion leads
   moving.velocity = found->velocity;
   s.odometry.restart(tracked.T_map_lidar);
   s.odometry.commit(moving);
   return found->velocity;
+}
+
+/// Judges the surest answer without the scan's distortion, at the pose `best` that was found with the motion, and the
+/// others beside it, as far as the same correction carries them: what tells places apart must be asked of the same
+/// scan.
+void Relocalizer::judge_again(const PointCloud& cloud, const Pose& best, std::vector<PlaceAnswer>& answers) const {
+  const Pose correction = answers.front().T_map_lidar.inverse() * best;
+  std::vector<Pose> believed;
+  for (std::size_t i = 0; i < answers.size() && believed.size() < kRivals; ++i) {
+    if (i == 0 || answers[i].log_odds >= kWorthCorrecting) {
+      answers[i].T_map_lidar = answers[i].T_map_lidar * correction;
+      believed.push_back(answers[i].T_map_lidar);
+    }
+  }
+  for (const PlaceAnswer& again : state_->map->search(cloud, 0, believed)) {
+    for (std::size_t i = 0; i < believed.size(); ++i) {
+      const PoseError moved = pose_error(again.T_map_lidar, believed[i]);
+      if (moved.translation_m < state_->options.same_place_m && moved.rotation_deg < state_->options.same_place_deg &&
+          again.log_odds >= answers[i].log_odds) {
+        answers[i].T_map_lidar = again.T_map_lidar;
+        answers[i].log_odds = again.log_odds;
+      }
+    }
+  }
+  std::stable_sort(answers.begin(), answers.end(),
+                   [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });
 }
 
 /// Registers the scan to the places that look like it and to those believed so far, unless it hardly differs from the
@@ -213,7 +236,7 @@ Pose Relocalizer::verified(const Scan& scan, const TrackedScan& tracked, const P
     believed.push_back(predicted);
   }
   Pose better = T_map_lidar;
-  for (const PlaceAnswer& answer : s.map->search(s.odometry.deskewed_cloud(scan, tracked.velocity), 0, believed)) {
+  for (const PlaceAnswer& answer : s.map->judge(s.odometry.deskewed_cloud(scan, tracked.velocity), believed)) {
     const bool same_place = std::any_of(believed.begin(), believed.end(), [&](const Pose& pose) {
       const PoseError off = pose_error(answer.T_map_lidar, pose);
       return off.translation_m < s.options.same_place_m && off.rotation_deg < s.options.same_place_deg;

@@ -27,6 +27,9 @@ constexpr double kKeyframeVoxel = 0.2;       ///< metres; as keyframes are kept 
 constexpr double kLeastLogOdds = -5.0;       ///< modes below it say nothing
 constexpr double kSuspectLogOdds = -1.5;     ///< from here on the twins of a place are asked too
 
+/// Whether answers are alternatives to each other.
+enum class Scope { kWholeMap, kEachByItself };
+
 /// A place of the map that a scan is registered to.
 struct Asked {
   std::size_t center = 0;
@@ -61,9 +64,14 @@ class RunPlaceMap final : public PlaceMap {
                                   const std::vector<Pose>& believed) const override {
     const PreparedScan source = prepare_scan(scan, engine_);
     const std::vector<Asked> asked = alike_places(scan, places);
-    std::vector<FoundPlace> found = joined({judge(source, believed), register_to(source, asked)});
+    std::vector<FoundPlace> found = joined({verify(source, believed), register_to(source, asked)});
     std::vector<FoundPlace> of_twins = register_to(source, twins(found, asked));
-    return concluded(joined({std::move(found), std::move(of_twins)}), source);
+    return concluded(joined({std::move(found), std::move(of_twins)}), source, Scope::kWholeMap);
+  }
+
+  std::vector<PlaceAnswer> judge(const PointCloud& scan, const std::vector<Pose>& believed) const override {
+    const PreparedScan source = prepare_scan(scan, engine_);
+    return concluded(verify(source, believed), source, Scope::kEachByItself);
   }
 
   std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const override {
@@ -91,9 +99,9 @@ class RunPlaceMap final : public PlaceMap {
   std::vector<Asked> twins(const std::vector<FoundPlace>& found, const std::vector<Asked>& asked) const;
   PreparedScan submap(std::size_t center) const;
   std::vector<FoundPlace> register_to(const PreparedScan& source, const std::vector<Asked>& asked) const;
-  std::vector<FoundPlace> judge(const PreparedScan& source, const std::vector<Pose>& believed) const;
+  std::vector<FoundPlace> verify(const PreparedScan& source, const std::vector<Pose>& believed) const;
   std::vector<FoundPlace> modes(const RegistrationResult& result, const Asked& asked) const;
-  std::vector<PlaceAnswer> concluded(std::vector<FoundPlace> found, const PreparedScan& source) const;
+  std::vector<PlaceAnswer> concluded(std::vector<FoundPlace> found, const PreparedScan& source, Scope scope) const;
 
   RunFolder run_;
   RelocalizationOptions options_;
@@ -191,6 +199,7 @@ std::vector<FoundPlace> RunPlaceMap::modes(const RegistrationResult& result, con
       FoundPlace one;
       one.answer.T_map_lidar = T_map_center * result.modes[i].T_target_source;
       one.answer.covariance = to_map * result.covariance * to_map.transpose();
+      one.answer.evidence = result.modes[i].evidence;
       one.voices = {log_odds[i], 1.0, asked.signature_lag};
       one.center = asked.center;
       one.own_covariance = i == 0;
@@ -210,7 +219,7 @@ std::vector<FoundPlace> RunPlaceMap::register_to(const PreparedScan& source, con
 }
 
 /// The poses that are believed, judged as those that were searched are.
-std::vector<FoundPlace> RunPlaceMap::judge(const PreparedScan& source, const std::vector<Pose>& believed) const {
+std::vector<FoundPlace> RunPlaceMap::verify(const PreparedScan& source, const std::vector<Pose>& believed) const {
   std::vector<std::vector<FoundPlace>> each(believed.size());
   parallel_for(believed.size(), [&](std::size_t i) {
     if (const auto center = nearest_center(believed[i].translation())) {
@@ -222,9 +231,13 @@ std::vector<FoundPlace> RunPlaceMap::judge(const PreparedScan& source, const std
 }
 
 /// Each distinct answer once, the most probable first.
-std::vector<PlaceAnswer> RunPlaceMap::concluded(std::vector<FoundPlace> found, const PreparedScan& source) const {
+std::vector<PlaceAnswer> RunPlaceMap::concluded(std::vector<FoundPlace> found, const PreparedScan& source,
+                                                Scope scope) const {
   std::vector<PlaceAnswer> answers;
-  for (FoundPlace& one : distinct_places_found(std::move(found), options_)) {
+  std::vector<FoundPlace> distinct = distinct_places_found(std::move(found), options_);
+  const Evidence best = distinct.empty() ? Evidence() : distinct.front().answer.evidence;
+  for (FoundPlace& one : distinct) {
+    one.voices.beyond_best = compared(one.answer.evidence, best);
     if (answers.empty() && !one.own_covariance) {
       const Pose& T_map_center = T_map_keyframe_[one.center];
       const Matrix6d to_map = adjoint(T_map_center);
@@ -232,8 +245,9 @@ std::vector<PlaceAnswer> RunPlaceMap::concluded(std::vector<FoundPlace> found, c
           verify_motion(source, submap(one.center), T_map_center.inverse() * one.answer.T_map_lidar, engine_);
       one.answer.covariance = to_map * judged.covariance * to_map.transpose();
     }
-    one.answer.log_odds = place_log_odds(one.voices);
-    one.answer.evidence = evidence_of(one.voices);
+    one.answer.log_odds = scope == Scope::kWholeMap ? place_log_odds(one.voices) : one.voices.registration;
+    const Evidence voices = evidence_of(one.voices);
+    one.answer.evidence.insert(one.answer.evidence.begin(), voices.begin(), voices.end());
     answers.push_back(std::move(one.answer));
   }
   std::stable_sort(answers.begin(), answers.end(),

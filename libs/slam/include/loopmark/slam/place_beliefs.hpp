@@ -46,8 +46,8 @@ class PlaceBeliefs {
   std::optional<PlaceBelief> best() const;
 
   /// Whether the most probable place is min_lead times as probable as the next one, the latest scan fits it, and fits
-  /// no other place (5 m or 20 degrees away) too: see kSureLogOdds. Where two places are alike, the lead of one over
-  /// the other comes from what has changed since (parked cars); only a scan that does not fit one of them tells.
+  /// no other place (5 m or 20 degrees away) nearly as well: where it fits one at all, the place must lead by
+  /// kClearLead, in what the latest scan says and in what all say together.
   bool decided() const;
 
   const std::vector<PlaceBelief>& all() const { return beliefs_; }

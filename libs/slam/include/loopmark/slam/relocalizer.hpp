@@ -19,10 +19,14 @@ class PlaceMap {
  public:
   virtual ~PlaceMap() = default;
 
-  /// Registers a scan (deskewed points, sensor's frame) to the `places` of the map that look like it most, and judges
-  /// the poses that are `believed`: every distinct answer once, the most probable first.
+  /// Registers a scan (deskewed points, sensor's frame) to the `places` of the map that look like it most, and to those
+  /// where it is `believed` to be: every distinct answer once, the most probable first, with its log-odds among all
+  /// places of the map.
   virtual std::vector<PlaceAnswer> search(const PointCloud& scan, std::size_t places,
                                           const std::vector<Pose>& believed) const = 0;
+
+  /// What registration says of the poses that are `believed`, each by itself, whatever else the map holds.
+  virtual std::vector<PlaceAnswer> judge(const PointCloud& scan, const std::vector<Pose>& believed) const = 0;
 
   /// The map's points within `radius` of a position, map frame.
   virtual std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const = 0;
@@ -71,6 +75,7 @@ class Relocalizer {
   TrackedScan follow_own_motion(const Scan& scan, RelocalizedScan& answer);
   void search(const Scan& scan, TrackedScan tracked, RelocalizedScan& answer);
   Vector6d correct_first_scan(const Scan& scan, const TrackedScan& tracked, std::vector<PlaceAnswer>& answers);
+  void judge_again(const PointCloud& cloud, const Pose& best, std::vector<PlaceAnswer>& answers) const;
   void begin_tracking(const Pose& T_map_odometry, double log_odds);
   void track(const Scan& scan, const TrackedScan& tracked, RelocalizedScan& answer);
   Pose verified(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar);

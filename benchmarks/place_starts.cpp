@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// place_starts RUN RUN_TRUTH LOG LOG_TRUTH|- OUT.txt STARTS SECONDS: starts a relocalizer, which knows nothing, at
+/// STARTS places spread over a log, feeds it the scans of SECONDS as they are in the log, and writes one row a start
+/// for benchmarks/relocalization.py: scan; metres from its true position to the nearest scan of the map; what the first
+/// scan gave (1 right, -1 wrong, 0 nothing); seconds of driving until the first right pose (-1: none); metres driven
+/// until then or the end; answers; wrong ones; P(correct) and error (metres, degrees) of the first wrong one, or of the
+/// last answer; why the last scan has no pose. RUN_TRUTH, LOG_TRUTH: poses in one world; LOG_TRUTH "-": the log is of
+/// another world, every answer is wrong.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "loopmark/core/parallel.hpp"
+#include "loopmark/core/progress.hpp"
+#include "loopmark/io/drive_log.hpp"
+#include "loopmark/io/trajectory.hpp"
+#include "loopmark/slam/map_truth.hpp"
+#include "loopmark/slam/relocalization_report.hpp"
+#include "loopmark/slam/relocalizer.hpp"
+#include "loopmark/slam/run_place_map.hpp"
+#include "loopmark/slam/run_records.hpp"
+#include "map_run.hpp"
+
+namespace {
+
+using namespace loopmark;
+
+struct Stage {
+  std::shared_ptr<const PlaceMap> map;
+  MapTruth truth;
+  std::unique_ptr<DriveLog> log;
+  std::vector<Pose> query;  ///< empty: another world
+  Compensation compensation;
+};
+
+struct Start {
+  std::size_t scan = 0;
+  double mapped_m = 1e6;
+  int first_scan = 0;
+  double right_s = -1.0;
+  double driven_m = 0.0;
+  int answers = 0;
+  int wrong = 0;
+  double p = 0.0;
+  PoseError error{1000.0, 180.0};
+  std::string reason = "-";
+};
+
+PoseError error_of(const Stage& stage, const RelocalizedScan& answer) {
+  return stage.query.empty() ? PoseError{1000.0, 180.0}
+                             : stage.truth.error(answer.T_map_lidar, stage.query[answer.scan]);
+}
+
+void take(const Stage& stage, const RelocalizedScan& answer, double seconds, Start& start) {
+  std::string reason = answer.reason.empty() ? "-" : answer.reason;
+  std::replace(reason.begin(), reason.end(), ' ', '_');
+  start.reason = reason;
+  if (!answer.answered) {
+    return;
+  }
+  const PoseError error = error_of(stage, answer);
+  const bool right = is_right(error);
+  ++start.answers;
+  if (start.wrong == 0) {
+    start.p = answer.p_correct;
+    start.error = error;
+  }
+  start.wrong += right ? 0 : 1;
+  start.right_s = right && start.right_s < 0.0 ? seconds : start.right_s;
+  if (answer.scan == start.scan) {
+    start.first_scan = right ? 1 : -1;
+  }
+}
+
+Start started_at(const Stage& stage, std::size_t first, double limit_s) {
+  Start start;
+  start.scan = first;
+  start.mapped_m = stage.query.empty() ? 1e6 : stage.truth.distance(stage.query[first]);
+  Relocalizer relocalizer(stage.map, {}, {}, stage.compensation, stage.log->info().sweep.value_or(SweepModel{}));
+  const std::vector<Pose> poses = stage.log->truth();
+  for (std::size_t i = first; i < stage.log->size(); ++i) {
+    const double seconds = stage.log->stamp_s(i) - stage.log->stamp_s(first);
+    if (seconds > limit_s) {
+      break;
+    }
+    if (i > first && start.right_s < 0.0 && !poses.empty()) {
+      start.driven_m += (poses[i].translation() - poses[i - 1].translation()).norm();
+    }
+    take(stage, relocalizer.add(stage.log->read(i)), seconds, start);
+  }
+  return start;
+}
+
+int run(char** argv) {
+  const RunFolder folder = RunFolder::open(argv[1]);
+  const SolvedMap solved = solve_map(read_scan_records(folder), read_loop_records(folder), {}, {});
+  std::unique_ptr<DriveLog> log = open_log(argv[3]);
+  const Compensation compensation = app::compensation_of(*log, {});
+  const bool elsewhere = std::string(argv[4]) == "-";
+  const Stage stage{open_place_map(folder, solved, {}), MapTruth(solved.T_map_scan, read_trajectory(argv[2]).poses),
+                    std::move(log), elsewhere ? std::vector<Pose>() : read_trajectory(argv[4]).poses, compensation};
+  const auto count = static_cast<std::size_t>(std::atoi(argv[6]));
+  const double limit_s = std::atof(argv[7]);
+  const double end_s = stage.log->stamp_s(stage.log->size() - 1) - limit_s;
+  std::size_t usable = stage.log->size();
+  while (usable > 1 && stage.log->stamp_s(usable - 1) > end_s) {
+    --usable;
+  }
+  std::vector<Start> starts(std::min(count, usable));
+  Progress progress("starts", starts.size());
+  parallel_for(starts.size(), [&](std::size_t i) {
+    starts[i] = started_at(stage, i * usable / starts.size(), limit_s);
+    progress.add();
+  });
+  std::ofstream out(argv[5]);
+  for (const Start& s : starts) {
+    out << s.scan << ' ' << s.mapped_m << ' ' << s.first_scan << ' ' << s.right_s << ' ' << s.driven_m << ' '
+        << s.answers << ' ' << s.wrong << ' ' << s.p << ' ' << s.error.translation_m << ' ' << s.error.rotation_deg
+        << ' ' << s.reason << '\n';
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 8) {
+    std::fprintf(stderr, "usage: place_starts RUN RUN_TRUTH LOG LOG_TRUTH|- OUT.txt STARTS SECONDS\n");
+    return 2;
+  }
+  return run(argv);
+}
