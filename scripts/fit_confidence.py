@@ -6,22 +6,23 @@
 usage: fit_confidence.py [--check] MODES.txt [MODES.txt ...]     (written by benchmarks/engine_modes)
 
 P_i = exp(l_i) / (1 + sum_j exp(l_j)), l = bias + sum_k worth_k(f_k). Each worth is a piecewise linear curve between
-quantiles of its feature, which may only rise (or only fall) and is flat beyond them: no evidence counts for more than it did
-in any pair seen. Prints the constants of libs/registration/src/confidence.cpp. --check: only a cross-validation that leaves
-out one file at a time. Needs python3-numpy.
+quantiles of its feature (right and wrong modes weigh alike in them), which may only rise (or only fall) and is flat beyond
+them: no evidence counts for more than it did in any pair seen. Prints the constants of libs/registration/src/confidence.cpp. --check: only a cross-validation that leaves
+out one file at a time. Needs python3-scipy.
 """
 import os
 import sys
 
 import numpy as np
+from scipy import optimize
 
 # +1: more is never worth less, -1: never worth more.
-SIGNS = {"agreement": 1, "low_presence": 1, "low_conflict": -1, "low_clash": -1, "tall_presence": 1, "tall_conflict": -1,
-         "tall_clash": -1, "explained": 1, "normals": 1, "tightness": 1, "residual": -1, "peak": 1, "lead": 1,
-         "support": 1, "tall_support": 1, "spread": 1, "constraint": 1, "ground": 1, "ground_gap": -1, "near": -1}
-QUANTILES = [0.02, 0.2, 0.4, 0.6, 0.8, 0.98]
-RIDGE, ROUGHNESS, STEPS, RATE = 0.0005, 0.001, 2500, 0.02
-CALM = 3.0  # how much a pair of different places weighs against one of the same place
+SIGNS = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "object_clash": -1, "far_conflict": -1, "contradicted": -1,
+         "tall_contradicted": -1, "residual": -1, "objects": 1, "tall_support": 1, "far_support": 1, "landmarks": 1,
+         "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1}
+QUANTILES = [0.01, 0.12, 0.25, 0.4, 0.6, 0.75, 0.88, 0.99]
+RIDGE, ROUGHNESS, STEPS = 0.0003, 0.0006, 500
+CALM = 4.0  # how much a pair of different places weighs against one of the same place
 
 
 def load(files):
@@ -37,8 +38,13 @@ def load(files):
 
 
 def knots_of(pairs):
-    every = np.concatenate([np.array(p["x"]) for p in pairs])
-    knots = np.quantile(every, QUANTILES, axis=0).T
+    x = np.concatenate([np.array(p["x"]) for p in pairs])
+    right = np.concatenate([np.array(p["right"]) for p in pairs]) > 0
+    share = np.where(right, 0.5 / max(1, right.sum()), 0.5 / max(1, (~right).sum()))
+    knots = np.empty((len(SIGNS), len(QUANTILES)))
+    for k in range(len(SIGNS)):
+        order = np.argsort(x[:, k], kind="stable")
+        knots[k] = np.interp(QUANTILES, np.cumsum(share[order]), x[order, k])
     return np.maximum.accumulate(knots + 1e-6 * np.arange(len(QUANTILES)), axis=1)
 
 
@@ -50,35 +56,37 @@ def ramps(x, knots):
 
 def fit(pairs):
     knots = knots_of(pairs)
-    features, segments = len(SIGNS), len(QUANTILES) - 1
-    signs = np.repeat(np.array(list(SIGNS.values())), segments)
-    shape = (len(pairs), max(len(p["x"]) for p in pairs))
-    x, there, right = np.zeros(shape + (features * segments,)), np.zeros(shape), np.zeros(shape)
+    shape = (len(SIGNS), len(QUANTILES) - 1)
+    signs = np.array(list(SIGNS.values()))[:, None]
+    climbed = np.concatenate([(ramps(p["x"], knots) * signs).reshape(len(p["x"]), -1) for p in pairs])
+    sizes = [len(p["x"]) for p in pairs]
+    pair_of = np.repeat(np.arange(len(pairs)), sizes)
+    first = np.concatenate([[0], np.cumsum(sizes)[:-1]])
+    right = np.concatenate([np.array(p["right"]) / max(1, sum(p["right"])) for p in pairs])
     weight = np.array([CALM if p["negative"] else 1.0 for p in pairs])
-    for row, p in enumerate(pairs):
-        n = len(p["x"])
-        x[row, :n] = ramps(p["x"], knots).reshape(n, -1) * signs
-        there[row, :n] = 1
-        right[row, :n] = np.array(p["right"]) / max(1, sum(p["right"]))
-    w, bias = np.full(features * segments, 0.1), -3.0
-    m, v = np.zeros(len(w) + 1), np.zeros(len(w) + 1)
-    for step in range(1, STEPS + 1):
-        odds = np.where(there > 0, x @ w + bias, -1e9)
-        top = np.maximum(odds.max(1), 0.0)[:, None]
-        share = np.exp(odds - top) * there
-        slope = (share / (share.sum(1, keepdims=True) + np.exp(-top)) - right) * there * weight[:, None]
-        g = np.append(np.einsum("ij,ijk->k", slope, x), slope.sum()) / weight.sum()
-        curve = w.reshape(features, segments)
-        bend = np.diff(curve, axis=1)
-        rough = np.zeros_like(curve)
+    weight /= weight.sum()
+
+    def loss(parameters):
+        w, bias = parameters[:-1], parameters[-1]
+        odds = climbed @ w + bias
+        top = np.maximum(np.maximum.reduceat(odds, first), 0.0)  # of "none of these": 0
+        share = np.exp(odds - top[pair_of])
+        total = np.add.reduceat(share, first) + np.exp(-top)
+        likelihood = np.add.reduceat(odds * right, first) - np.log(total) - top
+        slope = (share / total[pair_of] - right) * weight[pair_of]
+        bend = np.diff(w.reshape(shape), axis=1)
+        rough = np.zeros(shape)
         rough[:, 1:] += bend
         rough[:, :-1] -= bend
-        g[:-1] += RIDGE * w + ROUGHNESS * rough.ravel()
-        m, v = 0.9 * m + 0.1 * g, 0.999 * v + 0.001 * g * g
-        change = RATE * (m / (1 - 0.9 ** step)) / (np.sqrt(v / (1 - 0.999 ** step)) + 1e-8)
-        w, bias = np.maximum(w - change[:-1], 0.0), bias - change[-1]
-    worth = np.concatenate([np.zeros((features, 1)), np.cumsum((w * signs).reshape(features, segments), axis=1)], axis=1)
-    return knots, worth, bias
+        value = -(weight * likelihood).sum() + 0.5 * RIDGE * (w @ w) + 0.5 * ROUGHNESS * (bend ** 2).sum()
+        return value, np.append(climbed.T @ slope + RIDGE * w + ROUGHNESS * rough.ravel(), slope.sum())
+
+    start = np.append(np.full(shape[0] * shape[1], 0.1), -3.0)
+    bounds = [(0.0, None)] * (len(start) - 1) + [(None, None)]
+    found = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": STEPS})
+    rises = found.x[:-1].reshape(shape) * signs
+    worth = np.concatenate([np.zeros((shape[0], 1)), np.cumsum(rises, axis=1)], axis=1)
+    return knots, worth, found.x[-1]
 
 
 def log_odds(x, model):

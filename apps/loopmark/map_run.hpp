@@ -87,6 +87,9 @@ struct MapOutcome {
 /// Whether and how the log's scans are deskewed: as the options say, else as the log says or its points show.
 Compensation compensation_of(const DriveLog& log, const SlamOptions& options);
 
+/// The same, for people.
+std::string compensation_text(Compensation compensation);
+
 /// From a log to a whole run folder. Throws InputError (the partial run stays) or Interrupted (it can be resumed).
 MapOutcome run_map(RunFolder folder, const MapJob& job, const AppOptions& options);
 

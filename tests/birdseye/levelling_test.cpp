@@ -49,5 +49,22 @@ TEST(Levelling, ALargerBankIsNotTakenForTheGround) {
   EXPECT_LT(tilt_left_deg(find_levelling(scene(0.0, 900, 1400)), 0.0), 1.0);
 }
 
+/// A street of 9 m on a bridge or a bank: more than half of what is seen lies below it.
+TEST(Levelling, LandBesideABridgeDoesNotHideItsDeck) {
+  Rng rng(5);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 600; ++i) {
+    points.emplace_back(rng.uniform(-28, 28), rng.uniform(-4.5, 4.5), -1.7 + 0.02 * rng.normal());
+  }
+  for (int i = 0; i < 900; ++i) {
+    const double side = rng.uniform() < 0.5 ? 1.0 : -1.0;
+    points.emplace_back(rng.uniform(-28, 28), side * rng.uniform(11, 28), rng.uniform(-8.0, -4.0));
+  }
+  const Levelling levelling = find_levelling(points);
+  ASSERT_TRUE(levelling.found);
+  EXPECT_LT(tilt_left_deg(levelling, 0.0), 0.5);
+  EXPECT_NEAR(levelling.T_level_sensor.translation().z(), 1.7, 0.1);
+}
+
 }  // namespace
 }  // namespace loopmark::birdseye

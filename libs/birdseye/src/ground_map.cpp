@@ -18,7 +18,10 @@ int cell_of(float metres) {
   return std::clamp(static_cast<int>(std::floor(metres / GroundMap::kCell)) + kSide / 2, 0, kSide - 1);
 }
 
-float centre_of(int cell) { return (static_cast<float>(cell - kSide / 2) + 0.5F) * GroundMap::kCell; }
+float centre_of(int cell) {
+  constexpr int kMiddle = kSide / 2;
+  return (static_cast<float>(cell - kMiddle) + 0.5F) * GroundMap::kCell;
+}
 
 /// The second lowest point of each cell (the lowest may be a stray return from below the ground).
 std::vector<float> second_lowest(const std::vector<Eigen::Vector3f>& points) {

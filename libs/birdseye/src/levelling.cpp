@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "loopmark/core/random.hpp"
+#include "loopmark/search/voxel_table.hpp"
 
 namespace loopmark::birdseye {
 namespace {
@@ -17,10 +18,12 @@ constexpr float kFar = 30.0F;
 constexpr float kThickness = 0.15F;  // metres to either side of the plane
 constexpr float kBelow = 0.5F;       // metres below the plane that speak against it
 constexpr float kBelowWeight = 2.0F;
+constexpr float kBeside = 10.0F;      // metres: farther away, land may lie below a street on a bridge or a bank
 constexpr float kMinUpright = 0.82F;  // cosine of 35 degrees
 constexpr float kUsualTilt = 0.17F;   // radians: a car's sensor is tilted by less; a roof or a bank is not
 constexpr float kTiltDoubt = 3.0F;    // a radian more costs this share of the points
 constexpr int kTrials = 400;
+constexpr float kSquare = 1.5F;  // metres
 constexpr std::size_t kMaxPoints = 3000;
 constexpr double kUsualHeight = 1.7;  // metres, where no ground is seen
 
@@ -47,6 +50,22 @@ std::vector<Eigen::Vector3f> near_points(const std::vector<Eigen::Vector3f>& poi
   return thinned;
 }
 
+/// The lowest point of each square of the ground plane: most of them are ground, also between walls, where most points
+/// are not and three at random would hardly ever all be.
+std::vector<Eigen::Vector3f> lowest_points(const std::vector<Eigen::Vector3f>& points) {
+  VoxelTable squares(points.size());
+  std::vector<Eigen::Vector3f> lowest;
+  for (const Eigen::Vector3f& p : points) {
+    const std::uint32_t square = squares.insert(voxel_of({p.x(), p.y(), 0.0F}, 1.0F / kSquare));
+    if (square == lowest.size()) {
+      lowest.push_back(p);
+    } else if (p.z() < lowest[square].z()) {
+      lowest[square] = p;
+    }
+  }
+  return lowest;
+}
+
 std::optional<Plane> plane_through(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
   Eigen::Vector3f normal = (b - a).cross(c - a);
   const float length = normal.norm();
@@ -65,7 +84,7 @@ float score(const Plane& plane, const std::vector<Eigen::Vector3f>& points) {
   for (const Eigen::Vector3f& p : points) {
     const float h = plane.height(p);
     on += std::abs(h) < kThickness ? 1 : 0;
-    below += h < -kBelow ? 1 : 0;
+    below += h < -kBelow && p.head<2>().squaredNorm() < kBeside * kBeside ? 1 : 0;
   }
   const float excess = std::max(0.0F, std::acos(std::min(1.0F, plane.normal.z())) - kUsualTilt);
   const float trust = std::max(0.0F, 1.0F - kTiltDoubt * excess);
@@ -98,9 +117,10 @@ std::optional<Plane> best_plane(const std::vector<Eigen::Vector3f>& points) {
   Rng rng(points.size());
   std::optional<Plane> best;
   float best_score = 0.0F;
-  const auto count = static_cast<std::uint32_t>(points.size());
+  const std::vector<Eigen::Vector3f> low = lowest_points(points);
+  const auto count = static_cast<std::uint32_t>(low.size());
   for (int trial = 0; trial < kTrials; ++trial) {
-    const auto plane = plane_through(points[rng.below(count)], points[rng.below(count)], points[rng.below(count)]);
+    const auto plane = plane_through(low[rng.below(count)], low[rng.below(count)], low[rng.below(count)]);
     const float value = plane ? score(*plane, points) : 0.0F;
     if (value > best_score) {
       best_score = value;

@@ -48,7 +48,7 @@ class PaperAlgorithm : public RegistrationAlgorithm {
   PaperAlgorithm(std::string name, PaperOptions options, std::filesystem::path features, std::string key,
                  std::string settings)
       : name_(std::move(name)),
-        options_(std::move(options)),
+        options_(options),
         features_(std::move(features)),
         key_(std::move(key)),
         settings_(std::move(settings)) {

@@ -113,7 +113,7 @@ void append_number(std::string& line, double value) {
 }
 
 void append_motion(std::string& line, const Pose& pose) {
-  const Eigen::Matrix4d matrix = pose.matrix();
+  const Eigen::Matrix4d& matrix = pose.matrix();
   for (int i = 0; i < 16; ++i) {
     line += ' ';
     append_number(line, matrix(i / 4, i % 4));

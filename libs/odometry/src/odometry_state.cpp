@@ -30,10 +30,13 @@ std::vector<Eigen::Vector3f> read_points(ByteReader& reader) {
   return points;
 }
 
+constexpr std::uint64_t kFormat = 0x6f646f6d65747232;  // "odometr2": changes with what is written
+
 }  // namespace
 
 std::string Odometry::state() const {
   ByteWriter writer;
+  writer.value(kFormat);
   write_pose(writer, origin_);
   writer.value(committed_);
   writer.value(last_gap_s_);
@@ -64,6 +67,9 @@ void Odometry::set_state(const std::string& bytes) {
     throw InputError("the saved state of the odometry is damaged");
   }
   ByteReader reader(content);
+  if (reader.value<std::uint64_t>() != kFormat) {
+    throw InputError("the saved state of the odometry is of another version of loopmark: map the log anew");
+  }
   restart(read_pose(reader));
   committed_ = reader.value<std::size_t>();
   last_gap_s_ = reader.value<double>();

@@ -9,7 +9,7 @@
 
 #include "alignment.hpp"
 #include "confidence.hpp"
-#include "evidence.hpp"
+#include "examiner.hpp"
 #include "loopmark/birdseye/correlation.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
@@ -19,34 +19,34 @@ namespace loopmark {
 namespace {
 
 constexpr std::size_t kRoughPatches = 250;
-constexpr double kDistinctMetres = 1.0;
-constexpr double kDistinctDegrees = 3.0;
 constexpr double kResidualSigma = 0.05;  // metres; of one patch, for the covariance
 constexpr double kDependence = 20.0;     // patches that say the same thing: neighbours are not independent
 
-/// Of a motion that did not come from the correlation: as one that leads by a usual height.
-constexpr PeakHeights kNoRival = {12.0, 12.0};
+constexpr const char* kLandmarks = "landmarks";
+constexpr std::size_t kOwnFinalists = 3;
+constexpr std::size_t kChance = 9;  // so many peaks higher, and a peak is chance's
 
-/// A motion between the levelled frames and what it rests on.
-struct Candidate {
-  Alignment alignment;
-  std::string origin;
-  PeakHeights peak;
-  Features features{};
-  double log_odds = 0.0;
-};
+/// Of a motion that did not come from the correlation: as one that stands out as right ones do.
+constexpr PeakHeights kNoRival = {12.0, 4.0};
 
-/// The bird's-eye view's guesses: planar motions between the levelled frames.
+/// The guesses of landmarks and of the bird's-eye view: planar motions between the levelled frames.
 std::vector<Candidate> hypothesize(const PreparedScan::Data& source, const PreparedScan::Data& target,
                                    const EngineOptions& options) {
   std::vector<Candidate> candidates;
-  const auto planar = birdseye::correlate(source.above, target.above, options.correlation);
-  for (const birdseye::PlanarHypothesis& h : planar) {
+  const auto add = [&](const birdseye::PlanarHypothesis& h, const char* origin, const PeakHeights& peak) {
     Candidate candidate;
     candidate.alignment.T_target_source = pose_from_yaw(h.yaw, {h.x, h.y, 0.0});
-    candidate.origin = "birdseye";
-    candidate.peak = {h.score, planar.front().score};
+    candidate.origin = origin;
+    candidate.peak = peak;
     candidates.push_back(candidate);
+  };
+  const auto planar = birdseye::correlate(source.above, target.above, options.correlation);
+  const double usual = planar.empty() ? 0.0 : planar[std::min(kChance, planar.size() - 1)].score;
+  for (const auto& h : birdseye::match_landmarks(source.landmarks, target.landmarks, options.landmarks)) {
+    add(h, kLandmarks, {0.0, usual});
+  }
+  for (const auto& h : planar) {
+    add(h, "birdseye", {h.score, usual});
   }
   return candidates;
 }
@@ -95,89 +95,19 @@ std::vector<Candidate> shortlist(std::vector<Candidate> candidates, const Prepar
   return kept;
 }
 
-void judge(Candidate& candidate, const Inquiry& inquiry) {
-  candidate.features = inquiry.features(candidate.alignment, candidate.peak);
-  candidate.log_odds = log_odds(candidate.features);
-}
-
-/// The candidates that differ, the most probable first.
-std::vector<Candidate> distinct(std::vector<Candidate> candidates) {
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.log_odds > b.log_odds; });
+/// The best of all, and the best of the landmarks' own: these have no peak that speaks for them.
+std::vector<Candidate> finalists(const std::vector<Candidate>& candidates, std::size_t most) {
   std::vector<Candidate> kept;
-  for (Candidate& candidate : candidates) {
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& k) {
-      const PoseError error = pose_error(candidate.alignment.T_target_source, k.alignment.T_target_source);
-      return error.translation_m < kDistinctMetres && error.rotation_deg < kDistinctDegrees;
-    });
-    if (!known) {
-      kept.push_back(std::move(candidate));
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const bool of_landmarks = candidates[i].origin == kLandmarks;
+    if (i < most || (of_landmarks && own < kOwnFinalists)) {
+      own += of_landmarks ? 1 : 0;
+      kept.push_back(candidates[i]);
     }
   }
   return kept;
 }
-
-/// How closely a candidate is looked at.
-struct Effort {
-  std::size_t coarse_patches;
-  int coarse_rounds;
-  std::size_t fine_patches;
-  int fine_rounds;
-  std::size_t asked;  ///< patches of structure a direction
-};
-
-constexpr Effort kQuick = {400, 8, 600, 5, 400};
-constexpr Effort kThorough = {800, 4, 1500, 8, kAllAsked};
-
-/// Aligns candidates of one pair and asks the scans about them.
-class Examiner {
- public:
-  Examiner(const PreparedScan::Data& source, const PreparedScan::Data& target, const Effort& effort)
-      : target_(target),
-        effort_(effort),
-        coarse_(sampled(source.fine.patches(), effort.coarse_patches)),
-        fine_(sampled(source.fine.patches(), effort.fine_patches)),
-        ground_(sampled_ground(source.fine.patches(), kRoughPatches)),
-        inquiry_(source, target, effort.asked) {}
-
-  /// Coarse, then fine alignment on patches, and what the scans say of the outcome. Returns the candidates that differ,
-  /// the most probable first.
-  std::vector<Candidate> examine(std::vector<Candidate> candidates) const {
-    parallel_for(candidates.size(),
-                 [&](std::size_t i) { candidates[i] = examined(candidates[i], effort_.coarse_rounds); });
-    return distinct(std::move(candidates));
-  }
-
-  /// Lays each candidate on the ground anew and aligns it finely from there; both are judged. Coarse patches mix ground
-  /// with what stands on it: they find the place well and the height badly.
-  std::vector<Candidate> settled_anew(std::vector<Candidate> candidates) const {
-    std::vector<Candidate> anew = candidates;
-    parallel_for(anew.size(), [&](std::size_t i) {
-      Pose& T = anew[i].alignment.T_target_source;
-      const double yaw = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
-      T = settled(pose_from_yaw(yaw, {T.translation().x(), T.translation().y(), 0.0}), ground_, target_.ground);
-      anew[i] = examined(anew[i], 0);
-    });
-    candidates.insert(candidates.end(), anew.begin(), anew.end());
-    return distinct(std::move(candidates));
-  }
-
- private:
-  Candidate examined(Candidate c, int coarse_rounds) const {
-    const Pose& start = c.alignment.T_target_source;
-    const Pose T = align_patches(coarse_, target_.coarse, start, 1.2F, 1.0, coarse_rounds).T_target_source;
-    c.alignment = align_patches(fine_, target_.fine, T, 0.4F, 0.3, effort_.fine_rounds);
-    judge(c, inquiry_);
-    return c;
-  }
-
-  const PreparedScan::Data& target_;
-  Effort effort_;
-  std::vector<Patch> coarse_;
-  std::vector<Patch> fine_;
-  std::vector<Patch> ground_;
-  Inquiry inquiry_;
-};
 
 /// Covariance on the target sensor's side from the information between the levelled frames.
 Matrix6d covariance_of(const Alignment& alignment, const PreparedScan::Data& target) {
@@ -209,7 +139,7 @@ std::string reason_to_abstain(const std::vector<Candidate>& candidates, const st
     return "two places fit alike";
   }
   const Features& f = candidates.front().features;
-  if (feature(f, "low_conflict") > std::log(0.2) || feature(f, "tall_conflict") > std::log(0.05)) {
+  if (feature(f, "contradicted") > std::log1p(8.0) || feature(f, "tall_clash") > std::log(0.05)) {
     return "beams of one scan pass through what the other saw";
   }
   return feature(f, "agreement") < 0.25 ? "too little structure agrees" : "the evidence is weak";
@@ -246,6 +176,7 @@ RegistrationResult decide(std::vector<Candidate> candidates, const PreparedScan:
   const Examiner examiner(source, target, kThorough);
   candidates = examiner.examine(std::move(candidates));
   candidates = examiner.settled_anew(std::move(candidates));
+  candidates = examiner.nodded(std::move(candidates));
   timings.push_back({"refine and verify", watch.seconds()});
   watch.reset();
   if (!candidates.empty()) {
@@ -269,7 +200,7 @@ RegistrationResult register_scans(const PreparedScan& source, const PreparedScan
   watch.reset();
   candidates = shortlist(std::move(candidates), source.data(), target.data(), options);
   candidates = Examiner(source.data(), target.data(), kQuick).examine(std::move(candidates));
-  candidates.resize(std::min(candidates.size(), options.hypotheses));
+  candidates = finalists(candidates, options.hypotheses);
   timings.push_back({"shortlist", watch.seconds()});
   return decide(std::move(candidates), source.data(), target.data(), options, std::move(timings));
 }

@@ -11,14 +11,18 @@
 namespace loopmark {
 namespace {
 
-constexpr float kMet = 0.4F;     // metres
-constexpr float kTight = 0.15F;  // metres
+constexpr float kMet = 0.4F;         // metres
+constexpr float kRunsOn = 1.2F;      // metres: how far a surface is carried on between beams
+constexpr float kOffSurface = 0.3F;  // metres
 constexpr float kPlanar = 0.5F;
-constexpr float kTestified = 80.0F;   // metres from the other sensor within which free space counts
-constexpr float kSpreadCell = 10.0F;  // metres
-constexpr float kTall = 2.2F;         // metres above the ground
-constexpr float kMostGap = 0.2F;      // metres
-constexpr double kDoubt = 10.0;       // patches: how many it takes to believe a share
+constexpr float kTestified = 80.0F;  // metres from the other sensor within which free space counts
+constexpr float kTall = 2.2F;        // metres above the ground
+constexpr float kBeside = 0.6F;      // metres to the side, where an object may lean on something tall
+constexpr float kFar = 25.0F;        // metres from a sensor
+constexpr float kCell = 5.0F;        // metres
+constexpr double kFewInCell = 3.0;   // patches that contradict
+constexpr float kMostGap = 0.2F;     // metres
+constexpr double kDoubt = 10.0;      // patches: how many it takes to believe a share
 
 /// What all viewpoints of a scan say of a point in its levelled frame: agreement outweighs conflict.
 RangeImage::Sight look_from_all(const std::vector<Witness>& witnesses, const Eigen::Vector3f& point) {
@@ -40,51 +44,79 @@ RangeImage::Sight look_from_all(const std::vector<Witness>& witnesses, const Eig
   return verdict;
 }
 
-void meet(Testimony& t, const Eigen::Vector3f& p, const Eigen::Vector3f& normal, const Patch& own, const Patch& other,
-          double weight) {
-  t.tight += std::abs(other.normal.dot(other.mean - p)) < kTight ? weight : 0.0;
-  if (own.planarity > kPlanar && other.planarity > kPlanar) {
-    const double cosine = normal.dot(other.normal);
-    t.alike += weight * cosine * cosine;
-    t.planar += weight;
-  }
-}
-
 double share(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
-/// A share that starts at one half and moves away from it as patches speak.
-double believed_share(double part, double whole) { return (part + 0.5 * kDoubt) / (whole + kDoubt); }
-
-Voices sum(const Voices& a, const Voices& b) {
-  return {a.met + b.met, a.conflict + b.conflict, a.clash + b.clash, a.unmet + b.unmet};
+Voices& operator+=(Voices& a, const Voices& b) {
+  a.met += b.met;
+  a.near += b.near;
+  a.absent += b.absent;
+  a.conflict += b.conflict;
+  a.clash += b.clash;
+  return a;
 }
 
-/// Of what should be seen, the share that is.
-double presence(const Voices& v) { return believed_share(v.met, v.met + v.unmet); }
+Voices operator+(Voices a, const Voices& b) { return a += b; }
+
+Voices operator*(double w, const Voices& v) {
+  return {w * v.met, w * v.near, w * v.absent, w * v.conflict, w * v.clash};
+}
 
 /// How much speaks against, on a logarithmic scale: from nothing to a little matters more than from much to more.
-double log_conflict(const Voices& v) { return std::log((v.conflict + 1.0) / (v.conflict + v.met + kDoubt)); }
-double log_clash(const Voices& v) { return std::log((v.clash + 1.0) / (v.clash + v.met + kDoubt)); }
+double log_against(double against, double for_it) { return std::log((against + 1.0) / (against + for_it + kDoubt)); }
 
-/// Of all that the other scan can say something of, the share that it confirms.
-double explained(const Voices& low, const Voices& tall) {
-  const Voices v = sum(low, tall);
-  return believed_share(v.met, v.met + v.unmet + v.conflict);
+/// The voices of a square of the ground plane.
+struct Cell {
+  Voices all;
+  Voices tall;
+};
+
+/// Which patches are objects: low, with nothing tall above them or beside.
+std::vector<bool> objects_among(const std::vector<Patch>& structure, const std::vector<Patch>& all) {
+  const auto square = [](float x, float y) { return voxel_of({x, y, 0.0F}, 1.0F); };
+  VoxelTable below_tall(all.size() / 4);
+  for (const Patch& patch : all) {
+    if (patch.height > kTall) {
+      below_tall.insert(square(patch.mean.x(), patch.mean.y()));
+    }
+  }
+  const auto is_object = [&](const Patch& patch) {
+    bool alone = patch.height <= kTall;
+    for (const float dx : {-kBeside, 0.0F, kBeside}) {
+      for (const float dy : {-kBeside, 0.0F, kBeside}) {
+        alone = alone && below_tall.find(square(patch.mean.x() + dx, patch.mean.y() + dy)) == VoxelTable::kNone;
+      }
+    }
+    return alone;
+  };
+  std::vector<bool> flags;
+  flags.reserve(structure.size());
+  for (const Patch& patch : structure) {
+    flags.push_back(is_object(patch));
+  }
+  return flags;
 }
 
-/// How well the least constrained direction of translation is held: 0 (slides freely) to 1/3.
-double constraint(const Alignment& alignment) {
-  const Eigen::Matrix3d h = alignment.information.topLeftCorner<3, 3>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(h);
-  return std::max(0.0, solver.eigenvalues()[0]) / std::max(1e-9, h.trace());
+/// Whether the surface at a point, seen coarsely, is one on which the point may lie.
+bool surface_runs_on(const PatchMap& coarse, const Eigen::Vector3f& point) {
+  const Patch* wide = coarse.nearest(point, kRunsOn);
+  return wide != nullptr && (wide->planarity < kPlanar || std::abs(wide->normal.dot(wide->mean - point)) < kOffSurface);
+}
+
+double landmark_score(const std::vector<birdseye::Landmark>& source, const std::vector<birdseye::Landmark>& target,
+                      const Pose& T) {
+  const double yaw = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
+  return birdseye::landmark_score(source, target, yaw, T.translation().x(), T.translation().y());
 }
 
 }  // namespace
 
 Inquiry::Side::Side(const PreparedScan::Data& scan, std::size_t asked)
     : map(&scan.fine),
+      coarse(&scan.coarse),
+      landmarks(&scan.landmarks),
       structure(sampled_structure(scan.fine.patches(), asked)),
       ground(sampled_ground(scan.fine.patches(), asked / 3)) {
+  is_object = objects_among(structure, scan.fine.patches());
   const auto standing = std::count_if(scan.fine.patches().begin(), scan.fine.patches().end(),
                                       [](const Patch& patch) { return patch.height > kStructureHeight; });
   const double all = std::min<double>(static_cast<double>(kAllAsked), static_cast<double>(standing));
@@ -98,32 +130,45 @@ Inquiry::Side::Side(const PreparedScan::Data& scan, std::size_t asked)
 Inquiry::Inquiry(const PreparedScan::Data& source, const PreparedScan::Data& target, std::size_t asked)
     : source_(source, asked), target_(target, asked) {}
 
+/// What the other scan says of one point, moved into its levelled frame.
+Voices Inquiry::ask(const Eigen::Vector3f& moved, const Side& to) {
+  Voices v;
+  if (to.map->nearest(moved, kMet) != nullptr) {
+    v.met = 1.0;
+    return v;
+  }
+  const auto sight = look_from_all(to.witnesses, moved);
+  if (sight == RangeImage::Sight::kAgrees) {
+    (surface_runs_on(*to.coarse, moved) ? v.near : v.absent) = 1.0;
+  }
+  v.conflict = sight >= RangeImage::Sight::kConflict ? 1.0 : 0.0;
+  v.clash = sight == RangeImage::Sight::kClash ? 1.0 : 0.0;
+  return v;
+}
+
 Testimony Inquiry::ask(const Side& from, const Side& to, const Pose& T_to_from) {
   const Eigen::Isometry3f T = T_to_from.cast<float>();
-  const Eigen::Matrix3f R = T.linear();
-  const double w = from.stands_for;
   Testimony t;
-  VoxelTable cells(256);
-  std::vector<double> met_in_cell;
-  for (const Patch& patch : from.structure) {
+  VoxelTable squares(256);
+  std::vector<Cell> cells;
+  for (std::size_t i = 0; i < from.structure.size(); ++i) {
+    const Patch& patch = from.structure[i];
     const Eigen::Vector3f p = T * patch.mean;
-    t.structure += w;
-    Voices& voices = patch.height > kTall ? t.tall : t.low;
-    if (const Patch* other = to.map->nearest(p, kMet)) {
-      voices.met += w;
-      meet(t, p, R * patch.normal, patch, *other, w);
-      const std::uint32_t cell = cells.insert(voxel_of({p.x(), p.y(), 0.0F}, 1.0F / kSpreadCell));
-      met_in_cell.resize(cells.size(), 0.0);
-      met_in_cell[cell] += w;
-      continue;
-    }
-    const auto sight = look_from_all(to.witnesses, p);
-    voices.conflict += sight >= RangeImage::Sight::kConflict ? w : 0.0;
-    voices.clash += sight == RangeImage::Sight::kClash ? w : 0.0;
-    voices.unmet += sight == RangeImage::Sight::kAgrees ? w : 0.0;
+    const Voices voices = from.stands_for * ask(p, to);
+    const bool tall = patch.height > kTall;
+    t.structure += from.stands_for;
+    (tall ? t.tall : t.low) += voices;
+    t.objects += from.is_object[i] ? voices : Voices();
+    t.far += patch.mean.norm() > kFar && p.norm() > kFar ? voices : Voices();
+    const std::uint32_t square = squares.insert(voxel_of({p.x(), p.y(), 0.0F}, 1.0F / kCell));
+    cells.resize(squares.size());
+    cells[square].all += voices;
+    cells[square].tall += tall ? voices : Voices();
   }
-  t.cells =
-      static_cast<double>(std::count_if(met_in_cell.begin(), met_in_cell.end(), [](double n) { return n >= 5.0; }));
+  for (const Cell& cell : cells) {
+    t.contradicted += cell.all.conflict >= kFewInCell && cell.all.conflict > 2.0 * cell.all.met ? 1.0 : 0.0;
+    t.tall_contradicted += cell.tall.clash >= kFewInCell && cell.tall.clash > 2.0 * cell.tall.met ? 1.0 : 0.0;
+  }
   ask_ground(from, to, T, t);
   return t;
 }
@@ -142,31 +187,31 @@ void Inquiry::ask_ground(const Side& from, const Side& to, const Eigen::Isometry
 }
 
 Features Inquiry::features(const Alignment& alignment, const PeakHeights& peak) const {
-  const Testimony a = ask(source_, target_, alignment.T_target_source);
-  const Testimony b = ask(target_, source_, alignment.T_target_source.inverse());
-  const Voices low = sum(a.low, b.low);
-  const Voices tall = sum(a.tall, b.tall);
-  const double met = a.met() + b.met();
+  const Pose& T = alignment.T_target_source;
+  const Testimony a = ask(source_, target_, T);
+  const Testimony b = ask(target_, source_, T.inverse());
+  const Voices low = a.low + b.low;
+  const Voices tall = a.tall + b.tall;
+  const Voices objects = a.objects + b.objects;
+  const Voices far = a.far + b.far;
   return {0.5 * (share(a.met(), a.structure) + share(b.met(), b.structure)),
-          presence(low),
-          log_conflict(low),
-          log_clash(low),
-          presence(tall),
-          log_conflict(tall),
-          log_clash(tall),
-          explained(low, tall),
-          believed_share(a.alike + b.alike, a.planar + b.planar),
-          believed_share(a.tight + b.tight, met),
+          log_against(low.absent, low.met + low.near),
+          log_against(tall.clash, tall.met),
+          log_against(objects.clash, objects.met),
+          log_against(far.conflict, far.met),
+          std::log1p(a.contradicted + b.contradicted),
+          std::log1p(a.tall_contradicted + b.tall_contradicted),
           alignment.residual_m,
-          std::min(peak.own, 60.0),
-          share(peak.own, peak.highest),
-          std::log1p(met),
+          std::log1p(objects.met),
           std::log1p(tall.met),
-          std::log1p(0.5 * (a.cells + b.cells)),
-          constraint(alignment),
+          std::log1p(far.met),
+          0.5 * (landmark_score(*source_.landmarks, *target_.landmarks, T) +
+                 landmark_score(*target_.landmarks, *source_.landmarks, T.inverse())),
+          std::min(peak.own, 60.0),
+          std::clamp(std::log((peak.own + 0.1) / (peak.usual + 0.1)), -1.0, 2.0),
           std::log1p(a.ground + b.ground),
           (a.ground_step + b.ground_step + 0.1 * kDoubt) / (a.ground + b.ground + kDoubt),
-          std::exp(-0.1 * alignment.T_target_source.translation().norm())};
+          std::exp(-0.1 * T.translation().norm())};
 }
 
 }  // namespace loopmark

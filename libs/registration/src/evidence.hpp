@@ -10,38 +10,41 @@
 
 namespace loopmark {
 
-/// What one height class of the structure of one scan, moved into the other, says.
+/// What one kind of structure of one scan, moved into the other, says.
 struct Voices {
   double met = 0.0;       ///< patches with a patch of the other scan within 0.4 m
+  double near = 0.0;      ///< where the other scan's surface runs on there, though no beam of it came within 0.4 m
+  double absent = 0.0;    ///< at a range at which the other's beams met something, but something else
   double conflict = 0.0;  ///< where the other scan's beams passed through
   double clash = 0.0;     ///< of these, where all beams around did as well
-  double unmet = 0.0;     ///< at a range at which the other's beams met something, but no patch near
 };
 
 /// Counts of one direction; where fewer patches than kAllAsked are asked, each counts for those it stands for.
 struct Testimony {
-  double structure = 0.0;    ///< patches that stand above the ground
-  Voices low;                ///< up to 2.2 m above the ground: cars and people may have come and gone
-  Voices tall;               ///< higher: buildings, trunks and poles, which stay
-  double tight = 0.0;        ///< met within 0.15 m along the other's normal
-  double alike = 0.0;        ///< sum of (n . n')^2 over planar met patches
-  double planar = 0.0;       ///< planar met patches
-  double cells = 0.0;        ///< cells of a 10 m grid with at least 5 met patches
-  double ground = 0.0;       ///< patches of the ground that lie on ground of the other
-  double ground_step = 0.0;  ///< sum of their distances along the other's normal, each at most 0.2 m
+  double structure = 0.0;          ///< patches that stand above the ground
+  Voices low;                      ///< up to 2.2 m above the ground: cars and people may have come and gone
+  Voices tall;                     ///< higher: buildings, trunks and poles, which stay
+  Voices objects;                  ///< of the low ones, those with nothing tall above them: cars, hedges, bins
+  Voices far;                      ///< over 25 m from both sensors
+  double contradicted = 0.0;       ///< cells of a 5 m grid where most is in conflict
+  double tall_contradicted = 0.0;  ///< cells where most of the tall structure clashes
+  double ground = 0.0;             ///< patches of the ground that lie on ground of the other
+  double ground_step = 0.0;        ///< sum of their distances along the other's normal, each at most 0.2 m
 
   double met() const { return low.met + tall.met; }
 };
 
-constexpr std::size_t kFeatures = 20;
+constexpr std::size_t kFeatures = 17;
 using Features = std::array<double, kFeatures>;
-/// agreement: share of the structure that is met. presence: of what should be seen, the share that is. conflict, clash:
-/// what speaks against, logarithmic. ground: how much ground is shared (logarithmic) and how far it gapes, metres.
-/// lead: the correlation peak against the highest of its pair.
+/// agreement: share of the structure that is met. absence, clash, conflict: what speaks against, logarithmic. objects,
+/// support: how much is met, logarithmic. contradicted: cells, logarithmic. landmarks: their score. peak: height of the
+/// correlation peak; rise: against chance's, logarithmic (not against the highest: of two places that look alike both
+/// rise, and only one leads). ground: how much ground is shared (logarithmic) and how far it gapes, metres. near: of
+/// the sensors to each other.
 constexpr std::array<std::string_view, kFeatures> kFeatureNames = {
-    "agreement",    "low_presence", "low_conflict", "low_clash", "tall_presence", "tall_conflict", "tall_clash",
-    "explained",    "normals",      "tightness",    "residual",  "peak",          "lead",          "support",
-    "tall_support", "spread",       "constraint",   "ground",    "ground_gap",    "near"};
+    "agreement", "low_absence", "tall_clash",   "object_clash", "far_conflict", "contradicted", "tall_contradicted",
+    "residual",  "objects",     "tall_support", "far_support",  "landmarks",    "peak",         "rise",
+    "ground",    "ground_gap",  "near"};
 
 /// A feature by its name.
 constexpr double feature(const Features& features, std::string_view name) {
@@ -52,10 +55,10 @@ constexpr double feature(const Features& features, std::string_view name) {
   return features[i];
 }
 
-/// The height of a hypothesis's correlation peak (0 where it has none), and of the highest of the same pair.
+/// The height of a hypothesis's correlation peak (0 where it has none), and of the tenth of the same pair: chance's.
 struct PeakHeights {
   double own = 0.0;
-  double highest = 0.0;
+  double usual = 0.0;
 };
 
 constexpr std::size_t kAllAsked = 2000;  ///< patches of structure that are asked where time does not press
@@ -80,7 +83,10 @@ class Inquiry {
     Side(const PreparedScan::Data& scan, std::size_t asked);
 
     const PatchMap* map;
+    const PatchMap* coarse;
+    const std::vector<birdseye::Landmark>* landmarks;
     std::vector<Patch> structure;
+    std::vector<bool> is_object;  ///< of each patch of structure: low, and nothing tall above it
     std::vector<Patch> ground;
     std::vector<Witness> witnesses;
     double ground_stands_for = 1.0;
@@ -88,6 +94,7 @@ class Inquiry {
   };
 
   static Testimony ask(const Side& from, const Side& to, const Pose& T_to_from);
+  static Voices ask(const Eigen::Vector3f& moved, const Side& to);
   static void ask_ground(const Side& from, const Side& to, const Eigen::Isometry3f& T, Testimony& t);
 
   Side source_;

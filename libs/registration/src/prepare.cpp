@@ -79,6 +79,7 @@ void derive(PreparedScan::Data& data, std::vector<Patch> patches) {
     patch.height = data.ground.height_above(patch.mean);
   }
   data.above = {birdseye::structure_cells(means, data.ground), birdseye::relief_cells(means, data.ground)};
+  data.landmarks = birdseye::find_landmarks(data.above.structure);
   data.fine = PatchMap(std::move(distinct), kFinePatch);
   data.coarse = PatchMap(coarsened(data.fine, kCoarseFactor), kFinePatch * kCoarseFactor);
 }

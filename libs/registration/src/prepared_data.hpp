@@ -4,6 +4,7 @@
 #pragma once
 
 #include "loopmark/birdseye/ground_map.hpp"
+#include "loopmark/birdseye/landmarks.hpp"
 #include "loopmark/birdseye/structure.hpp"
 #include "loopmark/registration/engine.hpp"
 #include "loopmark/registration/patch_map.hpp"
@@ -23,6 +24,7 @@ struct PreparedScan::Data {
   PatchMap fine;                           ///< 0.4 m
   PatchMap coarse;                         ///< 1.2 m
   birdseye::BirdseyeView above;            ///< for the bird's-eye-view correlation
+  std::vector<birdseye::Landmark> landmarks;
   birdseye::GroundMap ground;
   std::vector<View> views;
 };

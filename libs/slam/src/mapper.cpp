@@ -3,20 +3,16 @@
 #include "loopmark/slam/mapper.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "keyframe_files.hpp"
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/files.hpp"
-#include "loopmark/io/drive_log.hpp"
 #include "loopmark/slam/loop_closer.hpp"
+#include "mapper_placed.hpp"
 
 namespace loopmark {
 namespace {
-
-constexpr std::size_t kLeastPoints = 100;  // of a scan that can be used, after thinning
-constexpr double kWorthAgreeing = 0.3;     // P(correct) of an answer that another one may confirm
 
 std::filesystem::path state_file(const RunFolder& folder) { return folder / "records/odometry.state"; }
 
@@ -30,52 +26,6 @@ std::vector<Record> read_all(const std::filesystem::path& path, Record (*parse)(
 }
 
 }  // namespace
-
-void check(const SlamOptions& o) {
-  require_option(o.keyframe_m > 0.0, "keyframe_m", "must be positive");
-  require_option(o.keyframe_deg > 0.0, "keyframe_deg", "must be positive");
-  require_option(o.keyframe_voxel_m > 0.0, "keyframe_voxel_m", "must be positive");
-  require_option(o.cloud_voxel_m > 0.0, "cloud_voxel_m", "must be positive");
-  require_option(o.min_loop_p >= 0.0 && o.min_loop_p <= 1.0, "min_loop_p", "must be 0 to 1");
-  require_option(o.drift_m_per_m >= 0.0 && o.drift_deg_per_m >= 0.0, "drift_m_per_m", "must not be negative");
-  require_option(o.floor_m > 0.0 && o.floor_deg > 0.0, "floor_m", "must be positive");
-  require_option(o.max_gap_s > 0.0, "max_gap_s", "must be positive");
-  require_option(o.submap_keyframes >= 1, "submap_keyframes", "must be at least 1");
-}
-
-namespace {
-
-bool same_place(const Pose& a, const Pose& b) {
-  const PoseError error = pose_error(a, b);
-  return error.translation_m < 1.0 && error.rotation_deg < 5.0;
-}
-
-/// Registers a prepared scan to the latest keyframes of the last piece, until `enough` says so of an answer.
-bool registers(const Registrar& registrar, const RunFolder& folder, const std::vector<Keyframe>& keyframes,
-               const SlamOptions& options, const std::string& source,
-               const std::function<bool(const Pose& T_piece_lidar, double p_correct)>& enough) {
-  for (std::size_t back = 0; back < options.recovery_keyframes && back < keyframes.size(); ++back) {
-    const Keyframe& keyframe = keyframes[keyframes.size() - 1 - back];
-    if (keyframe.piece != keyframes.back().piece) {
-      break;
-    }
-    const RegistrationResult result = registrar.align(source, read_file(folder.keyframe(keyframe.number, "prepared")));
-    const bool worth = result.answered || result.p_correct >= kWorthAgreeing;
-    if (worth && enough(keyframe.T_piece_lidar * result.T_target_source, result.p_correct)) {
-      return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
-
-/// A scan on its way into the map.
-struct Mapper::Placed {
-  TrackedScan tracked;
-  ScanState state = ScanState::kTracked;
-  std::string problem;
-};
 
 Mapper::Mapper(const RunFolder& folder, const MapperOptions& options, std::shared_ptr<const Registrar> registrar,
                Compensation compensation, const SweepModel& sweep)
@@ -138,99 +88,6 @@ const ScanRecord& Mapper::add(const Scan& scan) {
     keep_keyframe(scan, record);
   }
   return keep(std::move(record));
-}
-
-/// Tracks the scan; a lost one is registered to the latest keyframes; one that fits nowhere starts a new piece, and so
-/// does one behind a long gap, which no motion model reaches across, unless registration confirms it.
-Mapper::Placed Mapper::place(const Scan& scan) {
-  Placed placed{odometry_.track(scan), ScanState::kTracked, ""};
-  if (placed.tracked.sample.size() < kLeastPoints) {
-    throw DamagedScan("scan " + std::to_string(scan.index) + ": only " + std::to_string(placed.tracked.sample.size()) +
-                      " usable points");
-  }
-  if (keyframes_.empty()) {
-    placed.state = ScanState::kNewPiece;
-  } else if (after_gap(scan.stamp_s)) {
-    // The sensor may have stood still: odometry is believed where registration, which does not know of it, agrees.
-    const bool confirmed =
-        registrar_ && placed.tracked.health.tracking != Tracking::kLost &&
-        registers(*registrar_, folder_, keyframes_, options_.slam,
-                  registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.velocity)),
-                  [&](const Pose& pose, double) { return same_place(pose, placed.tracked.T_map_lidar); });
-    if (!confirmed) {
-      start_piece(scan, "a gap between the scans", placed);
-    }
-  } else if (placed.tracked.health.tracking == Tracking::kLost) {
-    placed.problem = placed.tracked.health.reason;
-    if (recover(scan, placed)) {
-      placed.state = ScanState::kRecovered;
-    } else {
-      start_piece(scan, placed.problem, placed);
-    }
-  }
-  return placed;
-}
-
-/// Whether the gap to the last good scan is long, both in seconds and against those before. Stamps that jump back are a
-/// gap, too.
-bool Mapper::after_gap(double stamp_s) const {
-  constexpr std::size_t kRemembered = 20;
-  constexpr std::size_t kLeastKnown = 5;
-  constexpr double kTimesUsual = 10.0;
-  std::vector<double> stamps;
-  for (auto scan = scans_.rbegin(); scan != scans_.rend() && stamps.size() <= kRemembered; ++scan) {
-    if (scan->state != ScanState::kDamaged) {
-      stamps.push_back(scan->stamp_s);
-    }
-  }
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    gaps.push_back(std::abs(stamps[i - 1] - stamps[i]));
-  }
-  if (gaps.size() < kLeastKnown) {
-    return false;
-  }
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return std::abs(stamp_s - stamps.front()) > std::max(options_.slam.max_gap_s, kTimesUsual * *middle);
-}
-
-/// The new piece starts where the motion so far would have led: a guess that nothing else rests on.
-void Mapper::start_piece(const Scan& scan, const std::string& problem, Placed& placed) {
-  const auto last =
-      std::find_if(scans_.rbegin(), scans_.rend(), [](const ScanRecord& s) { return s.state != ScanState::kDamaged; });
-  const double ahead_s = std::clamp(scan.stamp_s - last->stamp_s, 0.0, options_.slam.max_gap_s);
-  odometry_.restart(last->T_piece_lidar * exp_se3(ahead_s * last->velocity));
-  placed.tracked = odometry_.track(scan);
-  placed.state = ScanState::kNewPiece;
-  placed.problem = problem;
-  ++piece_;
-}
-
-/// Global registration to the latest keyframes of the piece: two answers that agree, even if neither is sure by itself
-/// (what deceives a registration moves along with the sensor, and so says different places for different keyframes), or
-/// a sure one where the piece has no second keyframe.
-bool Mapper::recover(const Scan& scan, Placed& placed) const {
-  if (!registrar_) {
-    return false;
-  }
-  const bool only_one = keyframes_.size() < 2 || keyframes_[keyframes_.size() - 2].piece != piece_ ||
-                        options_.slam.recovery_keyframes < 2;
-  std::vector<Pose> answers;
-  const std::string source = registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.velocity));
-  return registers(*registrar_, folder_, keyframes_, options_.slam, source, [&](const Pose& pose, double p_correct) {
-    const bool agrees =
-        std::any_of(answers.begin(), answers.end(), [&](const Pose& other) { return same_place(pose, other); });
-    if (agrees || (only_one && p_correct >= options_.slam.min_loop_p)) {
-      placed.tracked = odometry_.track_from(scan, pose);
-      if (!same_place(placed.tracked.T_map_lidar, pose)) {
-        placed.tracked.T_map_lidar = pose;  // the local map draws it elsewhere: believe the registration
-      }
-      return true;
-    }
-    answers.push_back(pose);
-    return false;
-  });
 }
 
 bool Mapper::deserves_keyframe(const TrackedScan& tracked, ScanState state) const {

@@ -16,7 +16,7 @@ struct OccupancyOptions {
   double miss_probability = 0.4;    ///< of being occupied, for a voxel that a ray passes
   double min_probability = 0.1192;  ///< clamping: how sure of free a voxel can get
   double max_probability = 0.971;   ///< clamping: how sure of occupied a voxel can get
-  std::size_t memory_mb = 512;      ///< voxels kept in memory; others wait on the disk
+  std::size_t memory_mb = 256;      ///< voxels kept in memory; others wait on the disk
 };
 
 template <class Visitor>

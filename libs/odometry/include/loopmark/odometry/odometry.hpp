@@ -74,9 +74,12 @@ class Odometry {
   void align_to_deskewed_first(TrackedScan& answer) const;
   std::vector<float> times(const PointCloud& cloud) const;
   std::vector<Eigen::Vector3f> deskewed_sample(const TrackedScan& tracked) const;
+  std::vector<Eigen::Vector3d> in_map(const TrackedScan& tracked) const;
   double gap_to(double stamp_s) const;
   double threshold(double gap_s) const;
   void judge(TrackedScan& tracked) const;
+  void begin_map(const TrackedScan& first);
+  void learn_motion(const TrackedScan& tracked);
   void grow(const TrackedScan& tracked);
   void rebuild_first_scan();
 

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "loopmark/odometry/odometry.hpp"
+
+namespace loopmark {
+
+constexpr double kUsualGapS = 0.2;  // longer gaps between scans make the prediction less certain
+
+/// A guess of where the scan is; how its motion follows from the last scan unless the guess says otherwise.
+struct Odometry::Start {
+  Pose T_map_lidar;
+  Vector6d velocity;
+};
+
+}  // namespace loopmark

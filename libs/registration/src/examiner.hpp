@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Candidates of one pair of scans, looked at more and more closely.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evidence.hpp"
+#include "prepared_data.hpp"
+
+namespace loopmark {
+
+/// A motion between the levelled frames and what it rests on.
+struct Candidate {
+  Alignment alignment;
+  std::string origin;
+  PeakHeights peak;
+  Features features{};
+  double log_odds = 0.0;
+};
+
+/// How closely a candidate is looked at.
+struct Effort {
+  std::size_t coarse_patches;
+  int coarse_rounds;
+  std::size_t fine_patches;
+  int fine_rounds;
+  std::size_t asked;  ///< patches of structure a direction
+};
+
+constexpr Effort kQuick = {400, 8, 600, 5, 400};
+constexpr Effort kThorough = {800, 4, 1500, 8, kAllAsked};
+
+/// What the scans say of a candidate's motion, and its log-odds.
+void judge(Candidate& candidate, const Inquiry& inquiry);
+
+/// Aligns candidates of one pair and asks the scans about them. All return the candidates that differ (by 1 m or 3
+/// deg), the most probable first. The scans must outlive this.
+class Examiner {
+ public:
+  Examiner(const PreparedScan::Data& source, const PreparedScan::Data& target, const Effort& effort);
+
+  /// Coarse, then fine alignment on patches, and what the scans say of the outcome.
+  std::vector<Candidate> examine(std::vector<Candidate> candidates) const;
+
+  /// Lays each candidate on the ground anew and aligns it finely from there; both are judged. Coarse patches mix ground
+  /// with what stands on it: they find the place well and the height badly.
+  std::vector<Candidate> settled_anew(std::vector<Candidate> candidates) const;
+
+  /// Tilts the best candidate about the middle between the sensors, across the line that joins them, and aligns it
+  /// anew. Far apart on a hilly street, few rings of the ground are shared, and a sparse sensor's lie on each other one
+  /// ring too high as well.
+  std::vector<Candidate> nodded(std::vector<Candidate> candidates) const;
+
+ private:
+  Candidate examined(Candidate candidate, int coarse_rounds) const;
+
+  const PreparedScan::Data& target_;
+  Effort effort_;
+  std::vector<Patch> coarse_;
+  std::vector<Patch> fine_;
+  std::vector<Patch> ground_;
+  Inquiry inquiry_;
+};
+
+}  // namespace loopmark
