@@ -4,9 +4,10 @@
 """Fits relocalization's probability: a conditional logit model over all answers to a scan and "none of these".
 
 usage: fit_places.py ANSWERS.txt [ANSWERS.txt ...]     (written by benchmarks/relocalization.py fitting)
-P_i = exp(l_i) / (1 + sum_j exp(l_j)), l_i = w . f_i + v . (g_i - g_best) + b. f: the engine's log-odds of the answer, log
-of the submaps that give it, how far its place's signature lags behind the most alike one. g: evidence that is compared
-with that of the answer of which the engine is surest: where several places fit, it says which fits better. Scans of one
+P_i = exp(l_i) / (1 + sum_j exp(l_j)), l_i = e_i + w s_i + v . (g_i - g_best). e: the engine's log-odds of the answer, taken
+as they are, so that "none of these" rests on the many pairs that the engine was fitted to; s: how far its place's signature
+lags behind the most alike one; g: evidence that is compared with that of the answer of which the engine is surest: where
+several places fit, it says which fits better. Scans of one
 file are one fold of the cross-validation (a town that was not fitted judges). Prints the constants of
 libs/slam/src/place_confidence.cpp. Needs python3-numpy.
 """
@@ -15,8 +16,8 @@ import sys
 import numpy as np
 
 # +1: the weight may not be negative, -1: not positive.
-SIGNS = {"registration": 1, "submaps": 1, "signature_lag": -1}
-COMPARED = {"agreement": 1, "tall_presence": 1, "low_clash": -1, "tall_clash": -1, "ground_gap": -1}
+SIGNS = {"registration": 1, "signature_lag": -1}
+COMPARED = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "far_conflict": -1, "ground_gap": -1}
 MOST_LAG = 0.03  # a lag beyond it says no more: another sensor or a changed place may lag far
 WEIGHTS = {**SIGNS, **COMPARED}
 RIDGE, STEPS, RATE, WRONG = 0.003, 3000, 0.03, 0.5
@@ -31,7 +32,6 @@ def load(file):
         if not evidence:
             continue
         values = {name: float(value) for name, value in (item.split("=") for item in evidence)}
-        values["submaps"] = np.log(values["submaps"])
         values["signature_lag"] = min(values["signature_lag"], MOST_LAG)
         entry["x"].append([values[key] for key in WEIGHTS])
         entry["right"].append(float(error_m) < RIGHT_M and float(error_deg) < RIGHT_DEG)
@@ -55,8 +55,8 @@ def pack(scans):
     return x, there, right
 
 
-def probabilities(x, there, w, b):
-    odds = np.where(there > 0, x @ w + b, -1e9)
+def probabilities(x, there, w):
+    odds = np.where(there > 0, x @ w, -1e9)
     top = np.maximum(odds.max(1), 0.0)[:, None]
     share = np.exp(odds - top) * there
     return share / (share.sum(1, keepdims=True) + np.exp(-top))
@@ -67,22 +67,22 @@ def fit(scans):
     scale = np.sqrt((x ** 2).sum((0, 1)) / there.sum()) + 1e-9
     signs = np.array(list(WEIGHTS.values()))
     x = x / scale
-    w, b = np.zeros(len(WEIGHTS)), 0.0
-    m, v = np.zeros(len(WEIGHTS) + 1), np.zeros(len(WEIGHTS) + 1)
+    w = np.zeros(len(WEIGHTS))
+    w[0] = scale[0]
+    m, v = np.zeros(len(WEIGHTS)), np.zeros(len(WEIGHTS))
     for step in range(1, STEPS + 1):
-        slope = (probabilities(x, there, w, b) - right) * there
-        g = np.append(np.einsum("ij,ijk->k", slope, x), slope.sum()) / len(scans)
-        g[:-1] += RIDGE * w
+        slope = (probabilities(x, there, w) - right) * there
+        g = np.einsum("ij,ijk->k", slope, x) / len(scans) + RIDGE * w
+        g[0] = 0.0
         m, v = 0.9 * m + 0.1 * g, 0.999 * v + 0.001 * g * g
-        move = RATE * (m / (1 - 0.9 ** step)) / (np.sqrt(v / (1 - 0.999 ** step)) + 1e-8)
-        w, b = w - move[:-1], b - move[-1]
+        w = w - RATE * (m / (1 - 0.9 ** step)) / (np.sqrt(v / (1 - 0.999 ** step)) + 1e-8)
         w = np.where(signs > 0, np.maximum(w, 0), np.minimum(w, 0))
-    return w / scale, b
+    return w / scale
 
 
-def judge(scans, w, b):
+def judge(scans, w):
     x, there, right = pack(scans)
-    p = probabilities(x, there, w, b)
+    p = probabilities(x, there, w)
     best = p.argmax(1)
     top, good = p.max(1), right[np.arange(len(scans)), best] > 0
     return top, good, right.sum(1) > 0
@@ -101,14 +101,13 @@ def main():
         sys.exit(__doc__)
     files = [load(name) for name in sys.argv[1:]]
     if len(files) > 1:
-        parts = [judge(files[i], *fit([s for k, f in enumerate(files) if k != i for s in f])) for i in range(len(files))]
+        parts = [judge(files[i], fit([s for k, f in enumerate(files) if k != i for s in f])) for i in range(len(files))]
         for name, part in zip(sys.argv[1:], parts):
             report("left out " + name, *part)
         report("all, each left out", *(np.concatenate(column) for column in zip(*parts)))
     scans = [s for f in files for s in f]
-    w, b = fit(scans)
-    report("fitted", *judge(scans, w, b))
-    print(f"constexpr double kBias = {b:.4f};")
+    w = fit(scans)
+    report("fitted", *judge(scans, w))
     for name, weight in zip(WEIGHTS, w):
         print(f"{name:16} {weight:.4f}")
 

@@ -81,14 +81,20 @@ TEST(LogOddsOfModes, UndoTheEnginesProbabilities) {
   EXPECT_TRUE(log_odds_of_modes({}).empty());
 }
 
+TEST(PlaceLogOdds, OfTheSurestAnswerAreTheEngines) {
+  EXPECT_DOUBLE_EQ(place_log_odds({2.5, 3.0, 0.0}), 2.5);
+  const Evidence known = {{"agreement", 0.3}};
+  EXPECT_DOUBLE_EQ(place_log_odds({2.5, 1.0, 0.0, compared(known, known)}), 2.5);
+}
+
 TEST(PlaceLogOdds, FallWhereTheBestAnswerFitsBetter) {
-  const Evidence best = {{"agreement", 0.3}, {"tall_presence", 0.8}, {"tall_clash", -5.0}, {"low_clash", -4.0}};
-  const Evidence worse = {{"tall_clash", -3.0}, {"agreement", 0.2}, {"tall_presence", 0.6}, {"ground_gap", 0.1}};
+  const Evidence best = {{"agreement", 0.3}, {"low_absence", -4.0}, {"tall_clash", -5.0}, {"ground_gap", 0.02}};
+  const Evidence worse = {{"tall_clash", -3.0}, {"agreement", 0.2}, {"low_absence", -2.5}, {"far_conflict", -1.0}};
   const Comparison beyond = compared(worse, best);
   EXPECT_NEAR(beyond[0], -0.1, 1e-12) << "agreement";
-  EXPECT_NEAR(beyond[1], -0.2, 1e-12) << "tall_presence";
-  EXPECT_EQ(beyond[2], 0.0) << "low_clash is not known of one of them";
-  EXPECT_NEAR(beyond[3], 2.0, 1e-12) << "tall_clash";
+  EXPECT_NEAR(beyond[1], 1.5, 1e-12) << "low_absence";
+  EXPECT_NEAR(beyond[2], 2.0, 1e-12) << "tall_clash";
+  EXPECT_EQ(beyond[3], 0.0) << "far_conflict is not known of one of them";
   EXPECT_EQ(beyond[4], 0.0) << "nor the gap of the ground";
   EXPECT_LT(place_log_odds({3.0, 1.0, 0.0, beyond}), place_log_odds({3.0, 1.0, 0.0, compared(best, best)}));
 }

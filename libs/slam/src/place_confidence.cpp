@@ -9,13 +9,10 @@
 namespace loopmark {
 namespace {
 
-constexpr double kBias = -1.58;
-constexpr double kRegistration = 1.31;
-constexpr double kSupport = 0.0;
-constexpr double kSignatureLag = -74.3;
-constexpr double kMostLag = 0.03;  // a lag beyond it says no more
-
-constexpr Comparison kBeyondBest = {7.8, 6.24, 0.0, -0.558, -42.6};  // in the order of kCompared
+// Written by scripts/fit_places.py.
+constexpr double kSignatureLag = -101.5;
+constexpr double kMostLag = 0.03;                                         // a lag beyond it says no more
+constexpr Comparison kBeyondBest = {8.57, -1.87, -0.216, -0.878, -24.6};  // in the order of kCompared
 
 constexpr double kLeastP = 1e-9;
 
@@ -36,8 +33,7 @@ Comparison compared(const Evidence& evidence, const Evidence& best) {
 }
 
 double place_log_odds(const PlaceVoices& voices) {
-  return kBias + kRegistration * voices.registration + kSupport * std::log(voices.support) +
-         kSignatureLag * std::min(voices.signature_lag, kMostLag) +
+  return voices.registration + kSignatureLag * std::min(voices.signature_lag, kMostLag) +
          std::inner_product(kBeyondBest.begin(), kBeyondBest.end(), voices.beyond_best.begin(), 0.0);
 }
 

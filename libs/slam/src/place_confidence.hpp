@@ -11,7 +11,7 @@
 namespace loopmark {
 
 /// The engine's evidence by which answers at different places are compared (docs/registration.md says what each is).
-constexpr std::array<std::string_view, 5> kCompared = {"agreement", "tall_presence", "low_clash", "tall_clash",
+constexpr std::array<std::string_view, 5> kCompared = {"agreement", "low_absence", "tall_clash", "far_conflict",
                                                        "ground_gap"};
 using Comparison = std::array<double, kCompared.size()>;
 
@@ -26,8 +26,8 @@ struct PlaceVoices {
 /// `evidence` minus `best`; zero where either lacks a number.
 Comparison compared(const Evidence& evidence, const Evidence& best);
 
-/// Log-odds of the answer against "none of these", among all answers to the scan: linear in the voices, fitted by
-/// scripts/fit_places.py.
+/// Log-odds of the answer against "none of these", among all answers to the scan: the engine's, and linear in what else
+/// speaks for one place rather than another, fitted by scripts/fit_places.py.
 double place_log_odds(const PlaceVoices& voices);
 
 /// The voices as named numbers, in the order that the fit expects.
