@@ -55,8 +55,10 @@ TEST(FindLandmarks, KeepsWhatStandsAloneAndIsNarrow) {
 
 TEST(FindLandmarks, AreNoMoreThanTheLimit) {
   std::vector<StructureCell> cells;
-  for (int i = 0; i < 100; ++i) {
-    put(cells, 5.25F * static_cast<float>(i % 10), 5.25F * static_cast<float>(i / 10), 0.5F, 0b010);
+  for (int row = 0; row < 10; ++row) {
+    for (int column = 0; column < 10; ++column) {
+      put(cells, 5.25F * static_cast<float>(column), 5.25F * static_cast<float>(row), 0.5F, 0b010);
+    }
   }
   EXPECT_EQ(find_landmarks(cells).size(), kMostLandmarks);
 }

@@ -182,7 +182,7 @@ RegistrationResult decide(std::vector<Candidate> candidates, const PreparedScan:
   if (!candidates.empty()) {
     Candidate& best = candidates.front();
     best.alignment = align_patches(source.fine.patches(), target.fine, best.alignment.T_target_source, 0.4F, 0.2, 6);
-    judge(best, Inquiry(source, target, kThorough.asked));
+    examiner.judge(best);
   }
   RegistrationResult result = conclude(candidates, source, target, options);
   timings.push_back({"polish", watch.seconds()});

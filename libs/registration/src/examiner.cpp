@@ -40,11 +40,6 @@ std::vector<Candidate> distinct(std::vector<Candidate> candidates) {
 
 }  // namespace
 
-void judge(Candidate& candidate, const Inquiry& inquiry) {
-  candidate.features = inquiry.features(candidate.alignment, candidate.peak);
-  candidate.log_odds = log_odds(candidate.features);
-}
-
 Examiner::Examiner(const PreparedScan::Data& source, const PreparedScan::Data& target, const Effort& effort)
     : target_(target),
       effort_(effort),
@@ -88,11 +83,16 @@ std::vector<Candidate> Examiner::nodded(std::vector<Candidate> candidates) const
   return distinct(std::move(candidates));
 }
 
+void Examiner::judge(Candidate& candidate) const {
+  candidate.features = inquiry_.features(candidate.alignment, candidate.peak);
+  candidate.log_odds = log_odds(candidate.features);
+}
+
 Candidate Examiner::examined(Candidate c, int coarse_rounds) const {
   const Pose& start = c.alignment.T_target_source;
   const Pose T = align_patches(coarse_, target_.coarse, start, 1.2F, 1.0, coarse_rounds).T_target_source;
   c.alignment = align_patches(fine_, target_.fine, T, 0.4F, 0.3, effort_.fine_rounds);
-  judge(c, inquiry_);
+  judge(c);
   return c;
 }
 

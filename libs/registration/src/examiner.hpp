@@ -32,9 +32,6 @@ struct Effort {
 constexpr Effort kQuick = {400, 8, 600, 5, 400};
 constexpr Effort kThorough = {800, 4, 1500, 8, kAllAsked};
 
-/// What the scans say of a candidate's motion, and its log-odds.
-void judge(Candidate& candidate, const Inquiry& inquiry);
-
 /// Aligns candidates of one pair and asks the scans about them. All return the candidates that differ (by 1 m or 3
 /// deg), the most probable first. The scans must outlive this.
 class Examiner {
@@ -52,6 +49,9 @@ class Examiner {
   /// anew. Far apart on a hilly street, few rings of the ground are shared, and a sparse sensor's lie on each other one
   /// ring too high as well.
   std::vector<Candidate> nodded(std::vector<Candidate> candidates) const;
+
+  /// What the scans say of a candidate's motion, and its log-odds.
+  void judge(Candidate& candidate) const;
 
  private:
   Candidate examined(Candidate candidate, int coarse_rounds) const;
