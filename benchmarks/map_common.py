@@ -13,7 +13,7 @@ from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parent.parent
 # Differ from run to run, as they tell times and arguments.
-TIMED_FILES = {"manifest.json", "timings.json", "report.html"}
+OWN_FILES = {"manifest.json", "timings.json", "report.html", "job.json"}  # times, and the folder of the run
 
 
 def parser(description):
@@ -123,7 +123,7 @@ def hashes(run):
     """SHA-256 of every file of a run that must not differ from run to run."""
     result = {}
     for path in sorted(run.rglob("*")):
-        if path.is_file() and path.name not in TIMED_FILES:
+        if path.is_file() and path.name not in OWN_FILES:
             result[str(path.relative_to(run))] = hashlib.sha256(path.read_bytes()).hexdigest()
     return result
 

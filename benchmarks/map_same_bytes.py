@@ -5,7 +5,8 @@
 
 usage: map_same_bytes.py [LOG] [--loopmark PROGRAM]
 
-Without LOG a simulated tour of 300 m is taken. manifest.json, timings.json and report.html tell times and may differ."""
+Without LOG a simulated tour of 300 m is taken. manifest.json, timings.json and report.html tell times, records/job.json the
+folder of the run: they may differ."""
 import map_common as common
 
 
