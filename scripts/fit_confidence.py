@@ -21,8 +21,8 @@ SIGNS = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "object_clash": -1
          "tall_contradicted": -1, "residual": -1, "objects": 1, "tall_support": 1, "far_support": 1, "landmarks": 1,
          "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1}
 QUANTILES = [0.01, 0.12, 0.25, 0.4, 0.6, 0.75, 0.88, 0.99]
-RIDGE, ROUGHNESS, STEPS = 0.0001, 0.0002, 500
-CALM = 3.0  # how much a pair of different places weighs against one of the same place
+RIDGE, ROUGHNESS, STEPS = 0.0003, 0.0006, 500
+CALM = 4.0  # how much a pair of different places weighs against one of the same place
 
 
 def load(files):
