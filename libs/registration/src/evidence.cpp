@@ -117,9 +117,9 @@ Inquiry::Side::Side(const PreparedScan::Data& scan, std::size_t asked)
       structure(sampled_structure(scan.fine.patches(), asked)),
       ground(sampled_ground(scan.fine.patches(), asked / 3)) {
   is_object = objects_among(structure, scan.fine.patches());
-  const auto standing = std::count_if(scan.fine.patches().begin(), scan.fine.patches().end(),
-                                      [](const Patch& patch) { return patch.height > kStructureHeight; });
-  const double all = std::min<double>(static_cast<double>(kAllAsked), static_cast<double>(standing));
+  standing = static_cast<double>(std::count_if(scan.fine.patches().begin(), scan.fine.patches().end(),
+                                               [](const Patch& patch) { return patch.height > kStructureHeight; }));
+  const double all = std::min(static_cast<double>(kAllAsked), standing);
   stands_for = all / std::max<double>(1.0, static_cast<double>(structure.size()));
   ground_stands_for = static_cast<double>(kAllAsked) / static_cast<double>(std::max<std::size_t>(asked, 3));
   for (const View& view : scan.views) {
@@ -211,7 +211,9 @@ Features Inquiry::features(const Alignment& alignment, const PeakHeights& peak) 
           std::clamp(std::log((peak.own + 0.1) / (peak.usual + 0.1)), -1.0, 2.0),
           std::log1p(a.ground + b.ground),
           (a.ground_step + b.ground_step + 0.1 * kDoubt) / (a.ground + b.ground + kDoubt),
-          std::exp(-0.1 * T.translation().norm())};
+          std::exp(-0.1 * T.translation().norm()),
+          std::log1p(std::min(source_.standing, target_.standing)),
+          std::log1p(std::max(source_.standing, target_.standing))};
 }
 
 }  // namespace loopmark
