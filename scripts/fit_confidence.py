@@ -20,8 +20,7 @@ from scipy import optimize
 
 # +1: more is never worth less, -1: never worth more, 0: either.
 SIGNS = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "object_clash": -1, "far_conflict": -1, "contradicted": -1,
-         "tall_contradicted": -1, "residual": -1, "objects": 1, "tall_support": 1, "far_support": 1, "landmarks": 1,
-         "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1,
+         "tall_contradicted": -1, "residual": -1, "objects": 1, "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1,
          "fewer": 0, "more": 0}
 QUANTILES = [0.01, 0.12, 0.25, 0.4, 0.6, 0.75, 0.88, 0.99]
 RIDGE, ROUGHNESS, STEPS = 0.0003, 0.0006, 400

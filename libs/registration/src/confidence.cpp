@@ -12,7 +12,9 @@ namespace {
 
 /// How much of each scene a hypothesis is; each two are shares of one.
 std::array<double, kScenes> scene_shares(const Features& features) {
-  const auto rise = [](double value, double from, double to) { return std::clamp((value - from) / (to - from), 0.0, 1.0); };
+  const auto rise = [](double value, double from, double to) {
+    return std::clamp((value - from) / (to - from), 0.0, 1.0);
+  };
   const double apart_m = -10.0 * std::log(std::max(feature(features, "near"), 1e-9));
   const double much = rise(feature(features, "fewer"), kLittle, kMuch);
   const double far = rise(apart_m, kNear, kFar);

@@ -102,18 +102,11 @@ bool surface_runs_on(const PatchMap& coarse, const Eigen::Vector3f& point) {
   return wide != nullptr && (wide->planarity < kPlanar || std::abs(wide->normal.dot(wide->mean - point)) < kOffSurface);
 }
 
-double landmark_score(const std::vector<birdseye::Landmark>& source, const std::vector<birdseye::Landmark>& target,
-                      const Pose& T) {
-  const double yaw = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
-  return birdseye::landmark_score(source, target, yaw, T.translation().x(), T.translation().y());
-}
-
 }  // namespace
 
 Inquiry::Side::Side(const PreparedScan::Data& scan, std::size_t asked)
     : map(&scan.fine),
       coarse(&scan.coarse),
-      landmarks(&scan.landmarks),
       structure(sampled_structure(scan.fine.patches(), asked)),
       ground(sampled_ground(scan.fine.patches(), asked / 3)) {
   is_object = objects_among(structure, scan.fine.patches());
@@ -203,10 +196,6 @@ Features Inquiry::features(const Alignment& alignment, const PeakHeights& peak) 
           std::log1p(a.tall_contradicted + b.tall_contradicted),
           alignment.residual_m,
           std::log1p(objects.met),
-          std::log1p(tall.met),
-          std::log1p(far.met),
-          0.5 * (landmark_score(*source_.landmarks, *target_.landmarks, T) +
-                 landmark_score(*target_.landmarks, *source_.landmarks, T.inverse())),
           std::min(peak.own, 60.0),
           std::clamp(std::log((peak.own + 0.1) / (peak.usual + 0.1)), -1.0, 2.0),
           std::log1p(a.ground + b.ground),
