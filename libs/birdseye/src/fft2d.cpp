@@ -86,28 +86,23 @@ void load(const std::vector<float>& from, std::size_t column, std::size_t side, 
 
 /// Transposes 8 x 8 floats: lanes j of in[0 .. 7] become the row out + j * stride.
 __attribute__((target_clones("avx2", "default"))) void transpose(const Lanes* in, float* out, std::size_t stride) {
-  using Picks = int __attribute__((vector_size(kWidth * sizeof(int))));
-  constexpr Picks kLow = {0, 8, 1, 9, 4, 12, 5, 13};
-  constexpr Picks kHigh = {2, 10, 3, 11, 6, 14, 7, 15};
-  constexpr Picks kFirst = {0, 1, 8, 9, 4, 5, 12, 13};
-  constexpr Picks kSecond = {2, 3, 10, 11, 6, 7, 14, 15};
-  constexpr Picks kLeft = {0, 1, 2, 3, 8, 9, 10, 11};
-  constexpr Picks kRight = {4, 5, 6, 7, 12, 13, 14, 15};
   Lanes pairs[kWidth];  // NOLINT(modernize-avoid-c-arrays): a template drops the attributes of the type
   Lanes fours[kWidth];  // NOLINT(modernize-avoid-c-arrays)
   for (std::size_t i = 0; i < kWidth; i += 2) {
-    pairs[i] = __builtin_shuffle(in[i], in[i + 1], kLow);
-    pairs[i + 1] = __builtin_shuffle(in[i], in[i + 1], kHigh);
+    pairs[i] = __builtin_shufflevector(in[i], in[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    pairs[i + 1] = __builtin_shufflevector(in[i], in[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
   }
   for (std::size_t i = 0; i < kWidth; i += 4) {
-    fours[i] = __builtin_shuffle(pairs[i], pairs[i + 2], kFirst);
-    fours[i + 1] = __builtin_shuffle(pairs[i], pairs[i + 2], kSecond);
-    fours[i + 2] = __builtin_shuffle(pairs[i + 1], pairs[i + 3], kFirst);
-    fours[i + 3] = __builtin_shuffle(pairs[i + 1], pairs[i + 3], kSecond);
+    fours[i] = __builtin_shufflevector(pairs[i], pairs[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+    fours[i + 1] = __builtin_shufflevector(pairs[i], pairs[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    fours[i + 2] = __builtin_shufflevector(pairs[i + 1], pairs[i + 3], 0, 1, 8, 9, 4, 5, 12, 13);
+    fours[i + 3] = __builtin_shufflevector(pairs[i + 1], pairs[i + 3], 2, 3, 10, 11, 6, 7, 14, 15);
   }
   for (std::size_t j = 0; j < kWidth / 2; ++j) {
-    *reinterpret_cast<Lanes*>(out + j * stride) = __builtin_shuffle(fours[j], fours[j + 4], kLeft);
-    *reinterpret_cast<Lanes*>(out + (j + 4) * stride) = __builtin_shuffle(fours[j], fours[j + 4], kRight);
+    *reinterpret_cast<Lanes*>(out + j * stride) =
+        __builtin_shufflevector(fours[j], fours[j + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    *reinterpret_cast<Lanes*>(out + (j + 4) * stride) =
+        __builtin_shufflevector(fours[j], fours[j + 4], 4, 5, 6, 7, 12, 13, 14, 15);
   }
 }
 
