@@ -125,5 +125,19 @@ TEST(PlaceBeliefs, ProbabilitiesAndNoneOfTheseMakeOne) {
   EXPECT_NEAR(1.0 - sum, 1.0 / 11.25, 1e-9);
 }
 
+TEST(PlaceAnswers, SayTheSameOrAreOfDifferentPlacesOrNeither) {
+  const RelocalizationOptions options;
+  const Pose here = pose_from_yaw(0.3, {10.0, 20.0, 1.0});
+  const auto beside = [&](double metres, double degrees) {
+    return Pose(here * pose_from_yaw(degrees * 3.14159265 / 180.0, {0.0, metres, 0.0}));
+  };
+  EXPECT_TRUE(say_the_same(here, beside(0.9 * options.same_place_m, 0.9 * options.same_place_deg), options));
+  EXPECT_FALSE(say_the_same(here, beside(1.1 * options.same_place_m, 0.0), options));
+  EXPECT_FALSE(say_the_same(here, beside(0.0, 1.1 * options.same_place_deg), options));
+  EXPECT_FALSE(are_elsewhere(here, beside(4.9, 19.0)));
+  EXPECT_TRUE(are_elsewhere(here, beside(5.1, 0.0)));
+  EXPECT_TRUE(are_elsewhere(here, beside(0.0, -21.0)));
+}
+
 }  // namespace
 }  // namespace loopmark

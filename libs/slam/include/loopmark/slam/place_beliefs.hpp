@@ -23,6 +23,12 @@ struct PlaceAnswer {
 /// P(correct) of each answer to one scan: exp(l_i) / (1 + sum_j exp(l_j)), all answers and "none of these" together.
 std::vector<double> probabilities(const std::vector<PlaceAnswer>& answers);
 
+/// Whether two answers to one scan say the same (options: same_place_m, same_place_deg).
+bool say_the_same(const Pose& a, const Pose& b, const RelocalizationOptions& options);
+
+/// Whether two answers are of different places: 5 m or 20 degrees apart. In between they are two answers about one place.
+bool are_elsewhere(const Pose& a, const Pose& b);
+
 /// A place the sensor may be at.
 struct PlaceBelief {
   Pose T_map_odometry = Pose::Identity();
@@ -54,7 +60,6 @@ class PlaceBeliefs {
   void clear() { beliefs_.clear(); }
 
  private:
-  bool same(const Pose& a, const Pose& b) const;
   void normalise();
 
   RelocalizationOptions options_;
