@@ -101,6 +101,12 @@ __attribute__((target_clones("avx2", "default"))) void multiply_row(Row<const fl
   }
 }
 
+/// Element -x of a periodic row for each x.
+void read_backwards(const float* row, std::size_t side, float* to) {
+  to[0] = row[0];
+  std::reverse_copy(row + 1, row + side, to + 1);
+}
+
 /// The surfaces of one correlation run: what is constant over the yaws.
 class Correlator {
  public:
@@ -177,10 +183,8 @@ class Correlator {
     for (std::size_t y = 0; y < side; ++y) {
       const std::size_t row = y * side;
       const std::size_t opposite = ((side - y) % side) * side;
-      for (std::size_t x = 0; x < side; ++x) {
-        mirrored[x] = grid.re[opposite + (side - x) % side];
-        mirrored[side + x] = grid.im[opposite + (side - x) % side];
-      }
+      read_backwards(&grid.re[opposite], side, mirrored.data());
+      read_backwards(&grid.im[opposite], side, mirrored.data() + side);
       multiply_row({&grid.re[row], &grid.im[row]}, {mirrored.data(), mirrored.data() + side},
                    {&target.re[row], &target.im[row]}, {&sums[0].re[row], &sums[0].im[row]},
                    {&sums[1].re[row], &sums[1].im[row]}, side);
@@ -200,20 +204,41 @@ struct Peak {
   std::size_t y = 0;
 };
 
+/// The highest value of each block of a row of blocks; `rows`: kBlock rows of the surface.
+__attribute__((target_clones("avx2", "default"))) void highest_of_blocks(const float* rows, std::size_t side,
+                                                                         float* across, float* highest) {
+  std::copy(rows, rows + side, across);
+  for (std::size_t y = 1; y < kBlock; ++y) {
+    for (std::size_t x = 0; x < side; ++x) {
+      across[x] = rows[y * side + x] > across[x] ? rows[y * side + x] : across[x];
+    }
+  }
+  for (std::size_t b = 0; b < side / kBlock; ++b) {
+    highest[b] = *std::max_element(across + b * kBlock, across + (b + 1) * kBlock);
+  }
+}
+
+/// The first cell of a block, row by row, that has a value.
+Peak cell_with(float value, const std::vector<float>& surface, std::size_t side, std::size_t bx, std::size_t by) {
+  for (std::size_t y = by; y < by + kBlock; ++y) {
+    const float* row = &surface[y * side + bx];
+    const float* found = std::find(row, row + kBlock, value);
+    if (found != row + kBlock) {
+      return {value, bx + static_cast<std::size_t>(found - row), y};
+    }
+  }
+  return {value, bx, by};
+}
+
 /// The highest cells of a surface, at most one a block.
 std::vector<Peak> highest(const std::vector<float>& surface, std::size_t side) {
-  std::vector<Peak> peaks;
+  std::vector<float> across(side);
+  std::vector<float> of_blocks(side / kBlock);
+  std::vector<Peak> peaks;  // at first those of the blocks' corners
   for (std::size_t by = 0; by < side; by += kBlock) {
-    for (std::size_t bx = 0; bx < side; bx += kBlock) {
-      Peak best{surface[by * side + bx], bx, by};
-      for (std::size_t y = by; y < by + kBlock; ++y) {
-        for (std::size_t x = bx; x < bx + kBlock; ++x) {
-          if (surface[y * side + x] > best.value) {
-            best = {surface[y * side + x], x, y};
-          }
-        }
-      }
-      peaks.push_back(best);
+    highest_of_blocks(&surface[by * side], side, across.data(), of_blocks.data());
+    for (std::size_t b = 0; b < of_blocks.size(); ++b) {
+      peaks.push_back({of_blocks[b], b * kBlock, by});
     }
   }
   const auto last = peaks.begin() + static_cast<std::ptrdiff_t>(std::min(kPeaksPerSurface, peaks.size()));
@@ -221,6 +246,9 @@ std::vector<Peak> highest(const std::vector<float>& surface, std::size_t side) {
     return a.value != b.value ? a.value > b.value : a.y * 65536 + a.x < b.y * 65536 + b.x;
   });
   peaks.erase(last, peaks.end());
+  for (Peak& peak : peaks) {
+    peak = cell_with(peak.value, surface, side, peak.x, peak.y);
+  }
   return peaks;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loopmark/core/parallel.hpp"
+
 namespace loopmark {
 namespace {
 
@@ -19,6 +21,15 @@ struct NormalEquations {
   double squares = 0.0;
   double weights = 0.0;
   std::size_t used = 0;
+
+  NormalEquations& operator+=(const NormalEquations& other) {
+    h += other.h;
+    g += other.g;
+    squares += other.squares;
+    weights += other.weights;
+    used += other.used;
+    return *this;
+  }
 };
 
 /// Adds one patch: r = q - p, weight matrix W = a diag(1, 1, u) + (1 - a) planarity n n^T, Jacobian [-I, hat(p)].
@@ -48,6 +59,28 @@ void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Patch& targe
   ++sum.used;
 }
 
+/// The terms of all patches that have a partner within reach, summed block by block: the same at any thread count.
+NormalEquations equations(const std::vector<Patch>& source, const PatchMap& target, const Eigen::Isometry3f& T,
+                          float reach_m, double scale_m) {
+  constexpr std::size_t kBlock = 2048;
+  std::vector<NormalEquations> blocks((source.size() + kBlock - 1) / kBlock);
+  parallel_blocks(source.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    NormalEquations& sum = blocks[begin / kBlock];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3f p = T * source[i].mean;
+      if (const Patch* partner = target.nearest(p, reach_m)) {
+        add_term(sum, p, *partner, scale_m);
+      }
+    }
+  });
+  NormalEquations all;
+  for (const NormalEquations& block : blocks) {
+    all += block;
+  }
+  all.h.bottomLeftCorner<3, 3>() = all.h.topRightCorner<3, 3>().transpose();
+  return all;
+}
+
 }  // namespace
 
 Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target, const Pose& start, float reach_m,
@@ -55,15 +88,7 @@ Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target
   Alignment result;
   result.T_target_source = start;
   for (int iteration = 0; iteration < iterations; ++iteration) {
-    const Eigen::Isometry3f T = result.T_target_source.cast<float>();
-    NormalEquations sum;
-    for (const Patch& patch : source) {
-      const Eigen::Vector3f p = T * patch.mean;
-      if (const Patch* partner = target.nearest(p, reach_m)) {
-        add_term(sum, p, *partner, scale_m);
-      }
-    }
-    sum.h.bottomLeftCorner<3, 3>() = sum.h.topRightCorner<3, 3>().transpose();
+    const NormalEquations sum = equations(source, target, result.T_target_source.cast<float>(), reach_m, scale_m);
     result.used = sum.used;
     result.information = sum.h;
     result.residual_m = sum.weights > 0.0 ? std::sqrt(sum.squares / sum.weights) : 0.0;

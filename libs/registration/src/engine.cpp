@@ -40,9 +40,17 @@ std::vector<Candidate> hypothesize(const PreparedScan::Data& source, const Prepa
     candidate.peak = peak;
     candidates.push_back(candidate);
   };
-  const auto planar = birdseye::correlate(source.above, target.above, options.correlation);
+  std::vector<birdseye::PlanarHypothesis> of_landmarks;
+  std::vector<birdseye::PlanarHypothesis> planar;
+  parallel_for(2, [&](std::size_t task) {
+    if (task == 0) {
+      of_landmarks = birdseye::match_landmarks(source.landmarks, target.landmarks, options.landmarks);
+    } else {
+      planar = birdseye::correlate(source.above, target.above, options.correlation);
+    }
+  });
   const double usual = planar.empty() ? 0.0 : planar[std::min(kChance, planar.size() - 1)].score;
-  for (const auto& h : birdseye::match_landmarks(source.landmarks, target.landmarks, options.landmarks)) {
+  for (const auto& h : of_landmarks) {
     add(h, kLandmarks, {0.0, usual});
   }
   for (const auto& h : planar) {
