@@ -5,8 +5,9 @@
 /// scan, metres from its true position to the nearest keyframe, symmetric overlap with the best of the three nearest
 /// ones, errors of the answer (metres, degrees), P(correct), log-odds, whether it is given, then the evidence by name
 /// and "truth", the engine's log-odds at the true pose itself (high where no answer is right: its place was not asked).
-/// A scan without any answer has a row of P 0. It says what a search takes in processor time, on all threads together. RUN_TRUTH, LOG_TRUTH: poses in one world (KITTI or TUM); LOG_TRUTH "-":
-/// the log is of another world, no answer is right.
+/// A scan without any answer has a row of P 0. It says what a search takes in processor time, on all threads together.
+/// RUN_TRUTH, LOG_TRUTH: poses in one world (KITTI or TUM); LOG_TRUTH "-": the log is of another world, no answer is
+/// right.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -132,7 +133,8 @@ int run(int argc, char** argv) {
     ++searched;
     write_answers(out, i, answers, reference, nearness(reference, *map, i, cloud));
   }
-  std::printf("a search: %.3f s of processor time\n", static_cast<double>(searching) / CLOCKS_PER_SEC / std::max(1, searched));
+  std::printf("a search: %.3f s of processor time\n",
+              static_cast<double>(searching) / CLOCKS_PER_SEC / std::max(1, searched));
   return 0;
 }
 

@@ -69,6 +69,11 @@ TEST(PlaceBeliefs, APlaceThatTheLatestScanFitsNearlyAsWellIsARival) {
   changed.add({fits(10.0, moved(5.0), 5.5), fits(300.0, moved(5.0), 1.5)}, moved(5.0));
   EXPECT_FALSE(changed.decided()) << "the latest scan tells them apart, but all together do not";
 
+  PlaceBeliefs weak({});
+  weak.add({fits(10.0, moved(0.0), 1.5), fits(300.0, moved(0.0), -0.5)}, moved(0.0));
+  EXPECT_GT(weak.best()->p, RelocalizationOptions().min_p_correct);
+  EXPECT_FALSE(weak.decided()) << "neither fits well, and the other one hardly less";
+
   PlaceBeliefs beside({});
   beside.add({fits(10.0, moved(0.0), 6.0), fits(12.0, moved(0.0), 4.0)}, moved(0.0));
   EXPECT_TRUE(beside.decided()) << "2 m apart they are one place: min_lead decides";

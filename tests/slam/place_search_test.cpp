@@ -51,8 +51,8 @@ FoundPlace found(double x, double registration, std::size_t center) {
 }
 
 TEST(FoundPlaces, ThatSayTheSameAreOneWithTheVoicesOfAll) {
-  const auto distinct = distinct_places_found(
-      {found(10.0, 1.0, 4), found(90.0, 2.0, 7), found(10.4, 3.0, 5), found(10.2, -2.0, 4)}, {});
+  const auto distinct =
+      distinct_places_found({found(10.0, 1.0, 4), found(90.0, 2.0, 7), found(10.4, 3.0, 5), found(10.2, -2.0, 4)}, {});
   ASSERT_EQ(distinct.size(), 2U);
   EXPECT_DOUBLE_EQ(distinct[0].answer.T_map_lidar.translation().x(), 10.4);
   EXPECT_DOUBLE_EQ(distinct[0].voices.registration, 3.0);

@@ -72,9 +72,7 @@ TEST(PlaceSubmaps, HaveNoJudgeFarFromTheMap) {
   EXPECT_TRUE(submaps.judges_of({500.0, 0.0, 0.0}).empty()) << "another part";
 }
 
-TEST(PlaceSubmaps, SayWhichFileIsMissing) {
-  EXPECT_THROW(submaps_of(street()).prepared(0), InputError);
-}
+TEST(PlaceSubmaps, SayWhichFileIsMissing) { EXPECT_THROW(submaps_of(street()).prepared(0), InputError); }
 
 }  // namespace
 }  // namespace loopmark

@@ -11,7 +11,7 @@ namespace {
 constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
 constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
 constexpr double kElsewhereDeg = 20.0;
-constexpr double kClearLead = 3.0;     ///< in log-odds, over another place that the latest scan fits too
+constexpr double kClearLead = 3.0;     ///< in log-odds, over another place
 constexpr double kUnconfirmed = -5.0;  ///< log-odds that stand for a scan that does not confirm a place
 constexpr double kForgotten = -4.0;    ///< log-odds below which a place is dropped
 
@@ -110,7 +110,7 @@ bool PlaceBeliefs::decided() const {
   return std::none_of(beliefs_.begin() + 1, beliefs_.end(), [&](const PlaceBelief& other) {
     const bool elsewhere = are_elsewhere(other.T_map_odometry * latest_, best.T_map_odometry * latest_);
     const double lead = std::min(best.log_odds - other.log_odds, best.latest - other.latest);
-    return best.p < options_.min_lead * other.p || (elsewhere && other.latest >= 0.0 && lead < kClearLead);
+    return best.p < options_.min_lead * other.p || (elsewhere && lead < kClearLead);
   });
 }
 

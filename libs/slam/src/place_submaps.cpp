@@ -12,7 +12,7 @@ namespace loopmark {
 namespace {
 
 constexpr std::size_t kKeyframes = 5;  ///< of a submap at most, the nearest ones
-constexpr std::size_t kKept = 256;     ///< submaps in memory, half a megabyte each
+constexpr std::size_t kKept = 128;     ///< submaps in memory
 constexpr double kStandOff = 25.0;     ///< metres
 constexpr double kCenterShare = 0.5;   ///< of the radius: a keyframe is at most so far from its submap's center
 

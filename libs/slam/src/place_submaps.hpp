@@ -25,7 +25,7 @@ class PlaceSubmaps {
 
   std::size_t size() const { return T_map_keyframe_.size(); }
   const Pose& T_map_keyframe(std::size_t k) const { return T_map_keyframe_[k]; }
-  std::size_t number(std::size_t k) const { return number_[k]; }    ///< of its files in the run
+  std::size_t number(std::size_t k) const { return number_[k]; }     ///< of its files in the run
   std::size_t center_of(std::size_t k) const { return center_[k]; }  ///< the keyframe in the middle of its submap
 
   double distance(std::size_t k, const Eigen::Vector3d& position) const {

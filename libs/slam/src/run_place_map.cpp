@@ -19,14 +19,14 @@
 namespace loopmark {
 namespace {
 
-constexpr std::size_t kMatchesPerPlace = 24;      ///< keyframes asked of the index for each place wanted
+constexpr std::size_t kMatchesPerPlace = 24;           ///< keyframes asked of the index for each place wanted
 constexpr std::array<std::size_t, 2> kFirst = {2, 2};  ///< places that are asked at a time, before all others
-constexpr double kKeyframeVoxel = 0.2;            ///< metres; as keyframes are kept by default
-constexpr double kLeastLogOdds = -5.0;            ///< modes below it say nothing
-constexpr double kSuspectLogOdds = -1.5;          ///< from here on the twins of a place are asked too
-constexpr double kSettled = 3.0;                  ///< log-odds of an answer behind which no further places are asked
-constexpr double kSure = 5.0;                     ///< log-odds of an answer that no further submap is asked about
-constexpr double kMostGain = 3.0;                 ///< log-odds that the nearest submap may add to those of a farther one
+constexpr double kKeyframeVoxel = 0.2;                 ///< metres; as keyframes are kept by default
+constexpr double kLeastLogOdds = -5.0;                 ///< modes below it say nothing
+constexpr double kSuspectLogOdds = -1.5;               ///< from here on the twins of a place are asked too
+constexpr double kSettled = 3.0;   ///< log-odds of an answer behind which no further places are asked
+constexpr double kSure = 5.0;      ///< log-odds of an answer that no further submap is asked about
+constexpr double kMostGain = 3.0;  ///< log-odds that the nearest submap may add to those of a farther one
 
 /// Registration to submaps takes coarser and fewer steps than the engine's own: an answer that is worth more is refined
 /// and judged as thoroughly either way.
@@ -254,8 +254,8 @@ Found RunPlaceMap::verify(const Query& query, const std::vector<Pose>& believed)
   return joined(std::move(each));
 }
 
-/// With each answer, what those submaps say of it that see most of what the scan sees: the one by which it was found may
-/// be a hundred metres away.
+/// With each answer, what those submaps say of it that see most of what the scan sees: the one by which it was found
+/// may be a hundred metres away.
 Found RunPlaceMap::judged_nearby(const Query& query, Found found) const {
   Found distinct = distinct_places_found(std::move(found), options_);
   std::vector<Found> each(distinct.size());
