@@ -9,8 +9,11 @@
 #include <limits>
 #include <string>
 
+#include "../../libs/slam/src/keyframe_files.hpp"
 #include "../../libs/slam/src/place_submaps.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/files.hpp"
+#include "loopmark/core/random.hpp"
 
 namespace loopmark {
 namespace {
@@ -73,6 +76,28 @@ TEST(PlaceSubmaps, HaveNoJudgeFarFromTheMap) {
 }
 
 TEST(PlaceSubmaps, SayWhichFileIsMissing) { EXPECT_THROW(submaps_of(street()).prepared(0), InputError); }
+
+TEST(KeyframePlace, OfAnEarlierVersionIsComputedAnew) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / ("loopmark_place_" + std::to_string(::getpid()));
+  std::filesystem::remove_all(folder.string() + ".partial");
+  const RunFolder run = RunFolder::create(folder);
+  std::filesystem::create_directories(run.keyframe(4, "place").parent_path());
+  PointCloud cloud;
+  Rng rng(2);
+  for (int i = 0; i < 4000; ++i) {
+    const auto along = static_cast<float>(rng.uniform(-40.0, 40.0));
+    cloud.points.emplace_back(along, static_cast<float>(rng.uniform(-30.0, 30.0)), -1.7F);
+    cloud.points.emplace_back(along, i % 3 == 0 ? 8.0F : -6.0F, static_cast<float>(rng.uniform(-1.7, 3.0)));
+  }
+  write_keyframe_cloud(run, 4, cloud);
+  write_keyframe_place(run, 4, cloud);
+  const PlaceSignature written = read_keyframe_place(run, 4);
+  write_file_atomically(run.keyframe(4, "place"), "LPS1 and what followed");
+  EXPECT_LT(distance(read_keyframe_place(run, 4), written), 1e-3);
+  write_file_atomically(run.keyframe(4, "place"), "LPS2 and damage");
+  EXPECT_THROW(read_keyframe_place(run, 4), InputError);
+  std::filesystem::remove_all(run.path());
+}
 
 }  // namespace
 }  // namespace loopmark
