@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 /// engine_modes SET ROOT OUT.txt [NEGATIVES [PERTURB [EVERY]]]: runs the engine on the pairs of a set and writes one
-/// row a mode for scripts/fit_confidence.py: pair, right (RE < 5 deg, TE < 0.6 m), negative, then the evidence by name.
+/// row a mode for scripts/fit_confidence.py: pair, right (RE < 5 deg, TE < 0.6 m), negative, then the evidence by name,
+/// then how far off the mode is.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -26,7 +27,7 @@ void write_modes(std::ofstream& out, std::size_t pair, const RegistrationResult&
     for (const auto& [name, value] : mode.evidence) {
       out << ' ' << name << '=' << value;
     }
-    out << '\n';
+    out << " off_m=" << error.translation_m << " off_deg=" << error.rotation_deg << '\n';
   }
 }
 

@@ -70,7 +70,7 @@ def judge(args, verdicts, log):
     print(f"{log}: {ran.seconds:.1f} s ({real_time:.2f} times real time, {ran.cpu_s:.1f} s of CPU), {ran.peak_mb:.0f} MB, "
           f"{common.components(run)} components, {summary['recovered']} scans recovered, {summary['loops']} loops")
     scans = len((args.logs / log / "times.txt").read_text().split())
-    posed = len((run / "trajectory.tum").read_text().splitlines())
+    posed = sum(not line.startswith("#") for line in (run / "trajectory.tum").read_text().splitlines())
     verdicts.line(posed == scans, f"{posed} of {scans} scans have a pose")
     asked = ASKED[log]
     judge_pairs(verdicts, run, pairs_of(args.pairs, log), asked)

@@ -5,10 +5,12 @@
 
 usage: fit_confidence.py [--check] MODES.txt [MODES.txt ...]     (written by benchmarks/engine_modes)
 
-P_i = exp(l_i) / (1 + sum_j exp(l_j)), l = bias + sum_k worth_k(f_k). Each worth is a piecewise linear curve between
-quantiles of its feature (right and wrong modes weigh alike in them), which may only rise (or only fall) and is flat beyond
-them: no evidence counts for more than it did in any pair seen. Prints the constants of libs/registration/src/confidence.cpp. --check: only a cross-validation that leaves
-out one file at a time. Needs python3-scipy.
+P_i = exp(l_i) / (1 + sum_j exp(l_j)), l = sum_s share_s (bias_s + sum_k worth_sk(f_k)). The scenes s: little or much
+structure to ask about, and sensors near to each other or far apart; a pair may be a share of each (see scenes()). Each worth is
+a piecewise linear curve between quantiles of its feature (right and wrong modes weigh alike in them), which may only rise
+(or only fall, or either) and is flat beyond them: no evidence counts for more than it did in any pair seen. Prints
+libs/registration/src/confidence_curves.hpp. --check: only a cross-validation that leaves out one file at a time. Needs
+python3-scipy.
 """
 import os
 import sys
@@ -16,13 +18,16 @@ import sys
 import numpy as np
 from scipy import optimize
 
-# +1: more is never worth less, -1: never worth more.
+# +1: more is never worth less, -1: never worth more, 0: either.
 SIGNS = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "object_clash": -1, "far_conflict": -1, "contradicted": -1,
-         "tall_contradicted": -1, "residual": -1, "objects": 1, "tall_support": 1, "far_support": 1, "landmarks": 1,
-         "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1}
+         "tall_contradicted": -1, "residual": -1, "objects": 1, "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1,
+         "fewer": 0, "more": 0}
 QUANTILES = [0.01, 0.12, 0.25, 0.4, 0.6, 0.75, 0.88, 0.99]
-RIDGE, ROUGHNESS, STEPS = 0.0003, 0.0006, 500
-CALM = 4.0  # how much a pair of different places weighs against one of the same place
+RIDGE, ROUGHNESS, STEPS = 0.0003, 0.0006, 400
+LITTLE, MUCH = 5.5, 7.5  # structure of the scan that has fewer, logarithmic
+NEAR_M, FAR_M = 10.0, 50.0  # between the sensors
+SCENES = ["little structure", "much structure", "near", "far"]
+CALM = 2.0  # how much a pair of different places weighs against one of the same place
 
 
 def load(files):
@@ -54,45 +59,68 @@ def ramps(x, knots):
     return np.clip((np.asarray(x)[:, :, None] - low) / (high - low), 0.0, 1.0)
 
 
+def scenes(x):
+    """How much of each scene the rows are: (rows, scenes). Each two of them are shares of one."""
+    x = np.asarray(x)
+    names = list(SIGNS)
+    much = np.clip((x[:, names.index("fewer")] - LITTLE) / (MUCH - LITTLE), 0.0, 1.0)
+    apart_m = -10.0 * np.log(np.maximum(x[:, names.index("near")], 1e-9))
+    far = np.clip((apart_m - NEAR_M) / (FAR_M - NEAR_M), 0.0, 1.0)
+    return np.stack([1.0 - much, much, 1.0 - far, far], axis=1)
+
+
+def design(x, knots, signs):
+    """The rows of a linear model: for each scene what each feature has climbed, then the scenes themselves."""
+    share = scenes(x)
+    climbed = (ramps(x, knots) * signs).reshape(len(x), -1)
+    return np.concatenate([(share[:, :, None] * climbed[:, None, :]).reshape(len(x), -1), share], axis=1)
+
+
 def fit(pairs):
     knots = knots_of(pairs)
-    shape = (len(SIGNS), len(QUANTILES) - 1)
-    signs = np.array(list(SIGNS.values()))[:, None]
-    climbed = np.concatenate([(ramps(p["x"], knots) * signs).reshape(len(p["x"]), -1) for p in pairs])
+    shape = (len(SCENES), len(SIGNS), len(QUANTILES) - 1)
+    signs = np.array([sign or 1 for sign in SIGNS.values()])[:, None]
+    rows = design(np.concatenate([p["x"] for p in pairs]), knots, signs)
     sizes = [len(p["x"]) for p in pairs]
     pair_of = np.repeat(np.arange(len(pairs)), sizes)
     first = np.concatenate([[0], np.cumsum(sizes)[:-1]])
     right = np.concatenate([np.array(p["right"]) / max(1, sum(p["right"])) for p in pairs])
     weight = np.array([CALM if p["negative"] else 1.0 for p in pairs])
     weight /= weight.sum()
+    rises = int(np.prod(shape))
 
     def loss(parameters):
-        w, bias = parameters[:-1], parameters[-1]
-        odds = climbed @ w + bias
+        w = parameters[:rises]
+        odds = rows @ parameters
         top = np.maximum(np.maximum.reduceat(odds, first), 0.0)  # of "none of these": 0
         share = np.exp(odds - top[pair_of])
         total = np.add.reduceat(share, first) + np.exp(-top)
         likelihood = np.add.reduceat(odds * right, first) - np.log(total) - top
         slope = (share / total[pair_of] - right) * weight[pair_of]
-        bend = np.diff(w.reshape(shape), axis=1)
+        bend = np.diff(w.reshape(shape), axis=2)
         rough = np.zeros(shape)
-        rough[:, 1:] += bend
-        rough[:, :-1] -= bend
+        rough[:, :, 1:] += bend
+        rough[:, :, :-1] -= bend
+        gradient = rows.T @ slope
+        gradient[:rises] += RIDGE * w + ROUGHNESS * rough.ravel()
         value = -(weight * likelihood).sum() + 0.5 * RIDGE * (w @ w) + 0.5 * ROUGHNESS * (bend ** 2).sum()
-        return value, np.append(climbed.T @ slope + RIDGE * w + ROUGHNESS * rough.ravel(), slope.sum())
+        return value, gradient
 
-    start = np.append(np.full(shape[0] * shape[1], 0.1), -3.0)
-    bounds = [(0.0, None)] * (len(start) - 1) + [(None, None)]
+    either = np.tile(np.repeat([sign == 0 for sign in SIGNS.values()], shape[2]), len(SCENES))
+    start = np.concatenate([np.where(either, 0.0, 0.05), np.full(len(SCENES), -1.0)])
+    bounds = [(None, None) if free else (0.0, None) for free in either] + [(None, None)] * len(SCENES)
     found = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": STEPS})
-    rises = found.x[:-1].reshape(shape) * signs
-    worth = np.concatenate([np.zeros((shape[0], 1)), np.cumsum(rises, axis=1)], axis=1)
-    return knots, worth, found.x[-1]
+    climbs = found.x[:rises].reshape(shape) * signs
+    worth = np.concatenate([np.zeros((*shape[:2], 1)), np.cumsum(climbs, axis=2)], axis=2)
+    return knots, worth, found.x[rises:]
 
 
 def log_odds(x, model):
     knots, worth, bias = model
     x = np.asarray(x)
-    return bias + sum(np.interp(x[:, k], knots[k], worth[k]) for k in range(len(SIGNS)))
+    of_scenes = [bias[s] + sum(np.interp(x[:, k], knots[k], worth[s, k]) for k in range(len(SIGNS)))
+                 for s in range(len(SCENES))]
+    return (scenes(x) * np.stack(of_scenes, axis=1)).sum(axis=1)
 
 
 def probabilities(odds):
@@ -114,7 +142,7 @@ def report(name, pairs, model):
     print(f"{name:>12}: same place {np.sum(~negative)}, a right mode {found[~negative].mean():.3f}, the best one right "
           f"{right[~negative].mean():.3f}, answered {given[~negative].mean():.3f}, wrong among them "
           f"{np.sum(given & ~negative & (right == 0))}; different places {np.sum(negative)}, answered "
-          f"{np.sum(given & negative)}; expected calibration error {error:.3f}", flush=True)
+          f"{np.sum(given & negative)}; expected calibration error {error:.3f}", file=sys.stderr, flush=True)
     return best
 
 
@@ -130,12 +158,35 @@ def main():
         return
     knots, worth, bias = fit(pairs)
     report("all", pairs, (knots, worth, bias))
-    print(f"constexpr double kBias = {bias:.3f};")
+    print_header(knots, worth, bias)
+
+
+HEAD = """// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/// What each number of the evidence is worth in each scene. Written by scripts/fit_confidence.py, in the order of
+/// kFeatureNames and kScenes.
+#pragma once
+
+#include "confidence.hpp"
+
+namespace loopmark {
+
+// clang-format off"""
+
+
+def print_header(knots, worth, bias):
+    row = lambda numbers: "{" + ", ".join(f"{value:.4g}" for value in numbers) + "}"
+    print(HEAD)
+    print(f"constexpr double kLittle = {LITTLE};  // structure of the scan that has fewer, logarithmic")
+    print(f"constexpr double kMuch = {MUCH};")
+    print(f"constexpr double kNear = {NEAR_M};  // metres between the sensors")
+    print(f"constexpr double kFar = {FAR_M};")
+    print(f"constexpr std::array<double, kScenes> kBias = {row(bias)};")
     print("constexpr std::array<Worth, kFeatures> kWorth = {{")
     for k, name in enumerate(SIGNS):
-        numbers = [", ".join(f"{value:.4g}" for value in row) for row in (knots[k], worth[k])]
-        print(f"    {{{{{numbers[0]}}}, {{{numbers[1]}}}}},  // {name}")
-    print("}};")
+        curves = ",\n      ".join(row(worth[s, k]) for s in range(len(SCENES)))
+        print(f"    {{{row(knots[k])},  // {name}\n     {{{{{curves}}}}}}},")
+    print("}};\n// clang-format on\n\n}  // namespace loopmark")
 
 
 if __name__ == "__main__":

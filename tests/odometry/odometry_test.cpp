@@ -51,6 +51,39 @@ TEST(Odometry, FollowsADriveThatStartsWhileMoving) {
   EXPECT_LT(error.rotation_deg, 0.4);
 }
 
+/// Metres by which the odometry misses a straight drive of ten scans over open land that it begins at speed.
+double miss_on_open_land(double speed, double rate_hz, std::uint64_t seed) {
+  constexpr int kBeams = 16;
+  constexpr std::size_t kScans = 10;
+  const BoxWorld world = testing_support::open_land(150.0, 15.0, seed);
+  const Vector6d velocity = (Vector6d() << speed, 0.0, 0.0, 0.0, 0.0, 0.01).finished();
+  Odometry odometry({}, Compensation::kRawClockwise);
+  Pose last;
+  Pose truth;
+  for (std::size_t i = 0; i < kScans; ++i) {
+    const double time_s = static_cast<double>(i) / rate_hz;
+    truth = exp_se3(time_s * velocity);
+    const Pose T_world_lidar = pose_from_yaw(0.02, {0.0, 0.0, 1.8}) * truth;
+    const TrackedScan tracked = odometry.track(
+        {i, time_s, testing_support::sweep(world, T_world_lidar, velocity, 0.02, 100 * seed + i, kBeams)});
+    odometry.commit(tracked);
+    last = tracked.T_map_lidar;
+  }
+  return pose_error(last, truth).translation_m;
+}
+
+TEST(Odometry, BelievesPostsNotTheRingsOfTheGroundWhereItStartsAtSpeed) {
+  for (const double speed : {10.0, 14.0}) {
+    for (const double rate_hz : {10.0, 5.0}) {
+      const double driven_m = 9.0 / rate_hz * speed;
+      for (const std::uint64_t seed : {1, 2}) {
+        EXPECT_LT(miss_on_open_land(speed, rate_hz, seed), 0.3 + 0.03 * driven_m)
+            << speed << " m/s, " << rate_hz << " scans a second, world " << seed;
+      }
+    }
+  }
+}
+
 TEST(Odometry, StampsThatRepeatAreNoEndOfThePath) {
   const Drive drive;
   Odometry odometry({}, Compensation::kCompensated);

@@ -57,6 +57,18 @@ inline BoxWorld street(double length_m, std::uint64_t seed) {
   return world;
 }
 
+/// Level land along x with nothing on it but posts, one about every `apart_m` metres, on either side.
+inline BoxWorld open_land(double length_m, double apart_m, std::uint64_t seed) {
+  BoxWorld world;
+  Rng rng(seed);
+  for (double x = -80.0; x < length_m + 80.0; x += rng.uniform(0.6, 1.4) * apart_m) {
+    const double side = rng.uniform(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
+    const double y = side * rng.uniform(6.0, 12.0);
+    world.boxes.push_back({{x, y - 0.15, 0.0}, {x + 0.3, y + 0.15, rng.uniform(3.0, 6.0)}});
+  }
+  return world;
+}
+
 /// What a clockwise spinning sensor with its seam behind and its stamp in the middle of the sweep sees from
 /// T_world_lidar (at the stamp) while it moves with `velocity` (a second, in its own frame).
 inline PointCloud sweep(const BoxWorld& world, const Pose& T_world_lidar, const Vector6d& velocity,

@@ -26,6 +26,7 @@ struct NormalEquations {
   std::size_t inliers = 0;
   std::size_t matches = 0;
   std::size_t left_out = 0;  // ground that says nothing
+  std::size_t structure_inliers = 0;
 
   NormalEquations& operator+=(const NormalEquations& other) {
     H += other.H;
@@ -35,6 +36,7 @@ struct NormalEquations {
     inliers += other.inliers;
     matches += other.matches;
     left_out += other.left_out;
+    structure_inliers += other.structure_inliers;
     return *this;
   }
 };
@@ -73,6 +75,7 @@ void add_match(NormalEquations& sums, const Eigen::Vector3d& lever, const Eigen:
   }
   if (inlier) {
     ++sums.inliers;
+    sums.structure_inliers += ground ? 0 : 1;
     sums.squares += across * across;
   }
 }
@@ -95,12 +98,16 @@ NormalEquations linearize(const Keypoints& keypoints, const LocalMap& map, const
                                  [](NormalEquations& total, const NormalEquations& part) { total += part; });
 }
 
-/// Where nothing holds the translation, the start does.
+/// Where nothing holds the motion, the start does.
 void hold(NormalEquations& sums, const Pose& T, const Pose& T_start) {
-  constexpr double kShare = 1e-3;  // of the weight of the matches
+  constexpr double kShare = 1e-4;   // of the weight of the matches
+  constexpr double kLeverM = 10.0;  // a rotation counts as what it moves at this range
   const double weight = kShare * static_cast<double>(sums.matches);
   sums.H.diagonal().head<3>().array() += weight;
   sums.b.head<3>() += weight * (T.translation() - T_start.translation());
+  const Eigen::AngleAxisd turned(T.linear() * T_start.linear().transpose());
+  sums.H.diagonal().tail<3>().array() += weight * kLeverM * kLeverM;
+  sums.b.tail<3>() += weight * kLeverM * kLeverM * turned.angle() * turned.axis();
 }
 
 void step(Pose& T, const Vector6d& xi) {
@@ -157,6 +164,15 @@ Health judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T, 
   return health;
 }
 
+void count_structure(const NormalEquations& sums, const Keypoints& keypoints, Health& health) {
+  if (keypoints.ground.empty()) {
+    return;
+  }
+  health.structure = static_cast<std::size_t>(std::count(keypoints.ground.begin(), keypoints.ground.end(), false));
+  health.structure_share =
+      health.structure > 0 ? static_cast<double>(sums.structure_inliers) / static_cast<double>(health.structure) : 0.0;
+}
+
 }  // namespace
 
 Alignment align(const Keypoints& keypoints, const LocalMap& map, const Pose& T_map_lidar, double threshold_m,
@@ -180,6 +196,7 @@ Alignment align(const Keypoints& keypoints, const LocalMap& map, const Pose& T_m
     converged = xi.norm() < kConverged;
   }
   result.health = judge(sums, keypoints.points.size() - sums.left_out, result.T_map_lidar, options);
+  count_structure(sums, keypoints, result.health);
   result.health.iterations = iteration;
   result.health.converged = converged;
   return result;

@@ -10,9 +10,10 @@
 namespace loopmark {
 namespace {
 
-constexpr double kCoarse = 3.0;      // voxel of the coarse map against the fine one's
-constexpr double kLeverM = 20.0;     // a rotation error counts as what it moves at this range
-constexpr std::size_t kMemory = 20;  // deviations that the threshold remembers
+constexpr double kCoarse = 3.0;          // voxel of the coarse map against the fine one's
+constexpr double kLeverM = 20.0;         // a rotation error counts as what it moves at this range
+constexpr double kStructureShare = 0.5;  // of what rises from the ground, less needs to fit: this of min_inlier_share
+constexpr std::size_t kMemory = 20;      // deviations that the threshold remembers
 
 double deviation_m(const Pose& predicted, const Pose& found) {
   const PoseError error = pose_error(found, predicted);
@@ -80,7 +81,9 @@ void Odometry::judge(TrackedScan& tracked) const {
   Health& health = tracked.health;
   health.tracking = health.degenerate_directions.empty() ? Tracking::kGood : Tracking::kDegenerate;
   health.reason.clear();
-  const bool doubtful = health.inlier_share < options_.min_inlier_share;
+  const bool by_structure = health.structure >= kLeastStructure;
+  const bool doubtful = by_structure ? health.structure_share < kStructureShare * options_.min_inlier_share
+                                     : health.inlier_share < options_.min_inlier_share;
   if (doubtful && health.margin < options_.min_margin) {
     health.tracking = Tracking::kLost;
     health.reason = "few points fit the map, and elsewhere hardly fewer";

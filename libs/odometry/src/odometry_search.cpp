@@ -13,11 +13,18 @@ namespace {
 
 bool better(const Health& a, const Health& b) { return a.inlier_share > b.inlier_share; }
 
-/// At the start of a piece: rings of the ground that fit while nothing holds a direction are no evidence of standing.
-bool better_start(const Health& a, const Health& b) {
+/// What of a scan fits: of its structure, where that was told apart from the ground.
+double share_that_fits(const Health& health) {
+  return health.structure >= kLeastStructure ? health.structure_share : health.inlier_share;
+}
+
+/// The rings of the ground fit best where the sensor stands; what rises from it tells. Without it, that nothing holds a
+/// direction tells against an answer.
+bool better_careful(const Health& a, const Health& b) {
   constexpr double kUnheld = 0.8;
   const auto score = [](const Health& health) {
-    return health.inlier_share * (health.degenerate_directions.empty() ? 1.0 : kUnheld);
+    const bool unheld = health.structure < kLeastStructure && !health.degenerate_directions.empty();
+    return share_that_fits(health) * (unheld ? kUnheld : 1.0);
   };
   return score(a) > score(b);
 }
@@ -80,6 +87,9 @@ void Odometry::align_to(const LocalMap& map, TrackedScan& tracked, const Start& 
                                   tracked.T_map_lidar, threshold_m, options_);
     tracked.T_map_lidar = found.T_map_lidar;
     tracked.health = found.health;
+    if (!careful(tracked.stamp_s)) {
+      tracked.health.structure = 0;
+    }
     tracked.velocity = log_se3(last_->T_map_lidar.inverse() * tracked.T_map_lidar) / gap_s;
   }
 }
@@ -109,11 +119,12 @@ std::vector<Odometry::Start> Odometry::shortlist(const TrackedScan& prepared, co
 }
 
 TrackedScan Odometry::best_of(const TrackedScan& prepared, const std::vector<Start>& starts, double threshold_m) const {
+  const auto ahead = careful(prepared.stamp_s) ? better_careful : better;
   std::optional<TrackedScan> best;
   for (const Start& start : starts) {
     TrackedScan tracked = prepared;
     align_from(tracked, start, threshold_m);
-    if (!best || better(tracked.health, best->health)) {
+    if (!best || ahead(tracked.health, best->health)) {
       best = std::move(tracked);
     }
   }
@@ -127,18 +138,25 @@ TrackedScan Odometry::best_of_wide(const TrackedScan& prepared, const TrackedSca
     answers.push_back(prepared);
     align_from(answers.back(), start, map_->voxel_m());
   }
+  if (committed_ == 1 && careful(prepared.stamp_s)) {
+    for (const Start& start : straight_starts(prepared)) {
+      answers.push_back(prepared);
+      align_from(answers.back(), start, map_->voxel_m());
+    }
+  }
   if (committed_ == 1 && deskews()) {
     for (TrackedScan& answer : answers) {
       align_to_deskewed_first(answer);
     }
   }
-  const auto ahead = committed_ == 1 ? better_start : better;
+  const bool doubtful = committed_ == 1 || careful(prepared.stamp_s);
+  const auto ahead = doubtful ? better_careful : better;
   std::stable_sort(answers.begin(), answers.end(),
                    [&](const TrackedScan& a, const TrackedScan& b) { return ahead(a.health, b.health); });
   TrackedScan& best = answers.front();
   for (const TrackedScan& other : answers) {
     if (!same_place(other.T_map_lidar, best.T_map_lidar, map_->voxel_m())) {
-      best.health.margin = best.health.inlier_share / std::max(other.health.inlier_share, 1e-3);
+      best.health.margin = share_that_fits(best.health) / std::max(share_that_fits(other.health), 1e-3);
       break;
     }
   }

@@ -6,7 +6,8 @@
 
 namespace loopmark {
 
-constexpr double kUsualGapS = 0.2;  // longer gaps between scans make the prediction less certain
+constexpr std::size_t kLeastStructure = 4;  // keypoints above the ground that can tell one answer from another
+constexpr double kUsualGapS = 0.2;          // longer gaps between scans make the prediction less certain
 
 /// A guess of where the scan is; how its motion follows from the last scan unless the guess says otherwise.
 struct Odometry::Start {

@@ -30,7 +30,22 @@ std::vector<Eigen::Vector3f> read_points(ByteReader& reader) {
   return points;
 }
 
-constexpr std::uint64_t kFormat = 0x6f646f6d65747232;  // "odometr2": changes with what is written
+constexpr std::uint64_t kFormat = 0x6f646f6d65747233;  // "odometr3": changes with what is written
+
+void write_directions(ByteWriter& writer, const std::vector<Eigen::Vector3d>& directions) {
+  writer.value(directions.size());
+  for (const Eigen::Vector3d& direction : directions) {
+    writer.raw(direction.data(), 3);
+  }
+}
+
+std::vector<Eigen::Vector3d> read_directions(ByteReader& reader) {
+  std::vector<Eigen::Vector3d> directions;
+  for (auto left = reader.value<std::size_t>(); left > 0; --left) {
+    reader.raw(directions.emplace_back().data(), 3);
+  }
+  return directions;
+}
 
 }  // namespace
 
@@ -48,6 +63,7 @@ std::string Odometry::state() const {
     writer.value(last_->stamp_s);
     write_pose(writer, last_->T_map_lidar);
     writer.raw(last_->velocity.data(), 6);
+    write_directions(writer, last_->health.degenerate_directions);
     write_points(writer, last_->sample.points);
     writer.vector(last_->sample.time_offset_s);
     writer.text(map_->to_bytes());
@@ -82,6 +98,7 @@ void Odometry::set_state(const std::string& bytes) {
     last.stamp_s = reader.value<double>();
     last.T_map_lidar = read_pose(reader);
     reader.raw(last.velocity.data(), 6);
+    last.health.degenerate_directions = read_directions(reader);
     last.sample.points = read_points(reader);
     last.sample.time_offset_s = reader.vector<float>();
     map_ = LocalMap::from_bytes(reader.text());

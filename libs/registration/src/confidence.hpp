@@ -3,14 +3,25 @@
 /// One probability over all hypotheses together, "none of these" included.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "evidence.hpp"
 
 namespace loopmark {
 
-/// Log-odds of one hypothesis against "none of these", from its features: a conditional logit model, fitted by
-/// scripts/fit_confidence.py; docs/registration.md says on which pairs.
+/// Kinds of scene in which the same evidence is worth more or less: little structure to ask about, much of it; sensors
+/// near to each other, far apart. What a beam misses 50 m away says less than what it misses beside the car.
+constexpr std::size_t kScenes = 4;
+
+/// What a feature is worth in each scene: curves through eight points, flat beyond them.
+struct Worth {
+  std::array<double, 8> at;
+  std::array<std::array<double, 8>, kScenes> worth;
+};
+
+/// Log-odds of one hypothesis against "none of these", from its features: a conditional logit model whose weights vary
+/// with the scene, fitted by scripts/fit_confidence.py; docs/registration.md says on which pairs.
 double log_odds(const Features& features);
 
 /// P_i = exp(l_i) / (1 + sum_j exp(l_j)).

@@ -102,24 +102,17 @@ bool surface_runs_on(const PatchMap& coarse, const Eigen::Vector3f& point) {
   return wide != nullptr && (wide->planarity < kPlanar || std::abs(wide->normal.dot(wide->mean - point)) < kOffSurface);
 }
 
-double landmark_score(const std::vector<birdseye::Landmark>& source, const std::vector<birdseye::Landmark>& target,
-                      const Pose& T) {
-  const double yaw = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
-  return birdseye::landmark_score(source, target, yaw, T.translation().x(), T.translation().y());
-}
-
 }  // namespace
 
 Inquiry::Side::Side(const PreparedScan::Data& scan, std::size_t asked)
     : map(&scan.fine),
       coarse(&scan.coarse),
-      landmarks(&scan.landmarks),
       structure(sampled_structure(scan.fine.patches(), asked)),
       ground(sampled_ground(scan.fine.patches(), asked / 3)) {
   is_object = objects_among(structure, scan.fine.patches());
-  const auto standing = std::count_if(scan.fine.patches().begin(), scan.fine.patches().end(),
-                                      [](const Patch& patch) { return patch.height > kStructureHeight; });
-  const double all = std::min<double>(static_cast<double>(kAllAsked), static_cast<double>(standing));
+  standing = static_cast<double>(std::count_if(scan.fine.patches().begin(), scan.fine.patches().end(),
+                                               [](const Patch& patch) { return patch.height > kStructureHeight; }));
+  const double all = std::min(static_cast<double>(kAllAsked), standing);
   stands_for = all / std::max<double>(1.0, static_cast<double>(structure.size()));
   ground_stands_for = static_cast<double>(kAllAsked) / static_cast<double>(std::max<std::size_t>(asked, 3));
   for (const View& view : scan.views) {
@@ -203,15 +196,13 @@ Features Inquiry::features(const Alignment& alignment, const PeakHeights& peak) 
           std::log1p(a.tall_contradicted + b.tall_contradicted),
           alignment.residual_m,
           std::log1p(objects.met),
-          std::log1p(tall.met),
-          std::log1p(far.met),
-          0.5 * (landmark_score(*source_.landmarks, *target_.landmarks, T) +
-                 landmark_score(*target_.landmarks, *source_.landmarks, T.inverse())),
           std::min(peak.own, 60.0),
           std::clamp(std::log((peak.own + 0.1) / (peak.usual + 0.1)), -1.0, 2.0),
           std::log1p(a.ground + b.ground),
           (a.ground_step + b.ground_step + 0.1 * kDoubt) / (a.ground + b.ground + kDoubt),
-          std::exp(-0.1 * T.translation().norm())};
+          std::exp(-0.1 * T.translation().norm()),
+          std::log1p(std::min(source_.standing, target_.standing)),
+          std::log1p(std::max(source_.standing, target_.standing))};
 }
 
 }  // namespace loopmark

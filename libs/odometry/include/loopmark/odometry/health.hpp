@@ -19,11 +19,13 @@ enum class Tracking {
 /// How much a pose of the odometry can be trusted, and why.
 struct Health {
   Tracking tracking = Tracking::kLost;
-  std::string reason;           ///< why tracking is lost; empty otherwise
-  std::size_t keypoints = 0;    ///< that were aligned
-  double inlier_share = 0.0;    ///< of the keypoints, those that fit a surface of the map
-  double unmapped_share = 0.0;  ///< of the keypoints, those with nothing of the map nearby: new surroundings
-  double fit_share = 0.0;       ///< the same, of the keypoints that have a point of the map nearby
+  std::string reason;            ///< why tracking is lost; empty otherwise
+  std::size_t keypoints = 0;     ///< that were aligned
+  double inlier_share = 0.0;     ///< of the keypoints, those that fit a surface of the map
+  double unmapped_share = 0.0;   ///< of the keypoints, those with nothing of the map nearby: new surroundings
+  double fit_share = 0.0;        ///< the same, of the keypoints that have a point of the map nearby
+  std::size_t structure = 0;     ///< of the keypoints, those known to be no ground; 0 where nobody told them apart
+  double structure_share = 0.0;  ///< of these, those that fit
   /// Inliers against those of the best answer elsewhere around; 0: not looked for, as enough points fit.
   double margin = 0.0;
   double residual_m = 0.0;  ///< root mean square distance of the inliers across their surfaces

@@ -77,6 +77,8 @@ class Odometry {
   std::vector<Eigen::Vector3d> in_map(const TrackedScan& tracked) const;
   double gap_to(double stamp_s) const;
   double threshold(double gap_s) const;
+  bool careful(double stamp_s) const;
+  std::vector<Start> straight_starts(const TrackedScan& prepared) const;
   void judge(TrackedScan& tracked) const;
   void begin_map(const TrackedScan& first);
   void learn_motion(const TrackedScan& tracked);
