@@ -81,7 +81,8 @@ Keypoints Odometry::keypoints(const TrackedScan& tracked, double cell_m) const {
   for (const std::size_t i : voxel_first_indices(points, cell_m)) {
     result.points.push_back(points[i]);
   }
-  if (committed_ == 1 || careful(tracked.stamp_s)) {  // before motion is sure, rings on the ground must not say that there is none
+  if (committed_ == 1 ||
+      careful(tracked.stamp_s)) {  // before motion is sure, rings on the ground must not say that there is none
     result.ground = ground_points(result.points, {});
   }
   return result;

@@ -13,9 +13,9 @@ namespace loopmark {
 namespace {
 
 constexpr double kCarefulGapS = 0.3;  // between scans
-constexpr double kStartM = 15.0;    // a piece starts within this distance
-constexpr double kFastest = 35.0;   // m/s
-constexpr double kFarthest = 20.0;  // metres between the first two scans, of what is searched
+constexpr double kStartM = 15.0;      // a piece starts within this distance
+constexpr double kFastest = 35.0;     // m/s
+constexpr double kFarthest = 20.0;    // metres between the first two scans, of what is searched
 constexpr double kMostSteps = 50.0;
 constexpr std::size_t kMostPoints = 3000;  // of a scan's structure, for a first look
 
