@@ -8,13 +8,12 @@
 #include <set>
 #include <utility>
 
-#include "found_place.hpp"
 #include "keyframe_files.hpp"
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/places/place_index.hpp"
 #include "place_confidence.hpp"
-#include "place_submaps.hpp"
+#include "place_registration.hpp"
 
 namespace loopmark {
 namespace {
@@ -22,23 +21,8 @@ namespace {
 constexpr std::size_t kMatchesPerPlace = 24;           ///< keyframes asked of the index for each place wanted
 constexpr std::array<std::size_t, 2> kFirst = {2, 2};  ///< places that are asked at a time, before all others
 constexpr double kKeyframeVoxel = 0.2;                 ///< metres; as keyframes are kept by default
-constexpr double kLeastLogOdds = -5.0;                 ///< modes below it say nothing
 constexpr double kSuspectLogOdds = -1.5;               ///< from here on the twins of a place are asked too
-constexpr double kSettled = 3.0;   ///< log-odds of an answer behind which no further places are asked
-constexpr double kSure = 5.0;      ///< log-odds of an answer that no further submap is asked about
-constexpr double kMostGain = 3.0;  ///< log-odds that the nearest submap may add to those of a farther one
-
-/// Registration to submaps takes coarser and fewer steps than the engine's own: an answer that is worth more is refined
-/// and judged as thoroughly either way.
-EngineOptions coarser(EngineOptions engine) {
-  engine.correlation.side = std::min<std::size_t>(engine.correlation.side, 128);
-  engine.correlation.cell_m = std::max(engine.correlation.cell_m, 1.2);
-  engine.correlation.yaw_step_deg = std::max(engine.correlation.yaw_step_deg, 5.0);
-  engine.correlation.peaks = std::min<std::size_t>(engine.correlation.peaks, 40);
-  engine.candidates = std::min<std::size_t>(engine.candidates, 24);
-  engine.hypotheses = std::min<std::size_t>(engine.hypotheses, 4);
-  return engine;
-}
+constexpr double kSettled = 3.0;  ///< log-odds of an answer behind which no further places are asked
 
 /// A scan that is searched.
 struct Query {
@@ -47,26 +31,14 @@ struct Query {
   double least_distance = 0.0;              ///< of the signature to those of the map
 };
 
-using Found = std::vector<FoundPlace>;
-
-void append(Found& all, Found more) { std::move(more.begin(), more.end(), std::back_inserter(all)); }
-
-Found joined(std::vector<Found> parts) {
-  Found all;
-  for (Found& part : parts) {
-    append(all, std::move(part));
-  }
-  return all;
-}
-
 class RunPlaceMap final : public PlaceMap {
  public:
   RunPlaceMap(const RunFolder& run, const SolvedMap& solved, const RelocalizationOptions& options,
               const EngineOptions& engine, const std::set<std::size_t>& left_out)
       : run_(run),
         options_(options),
-        engine_(coarser(engine)),
-        submaps_(run, solved, left_out, options.place_radius_m, engine) {
+        submaps_(run, solved, left_out, options.place_radius_m, engine),
+        registration_(submaps_, options, engine) {
     std::vector<PlaceSignature> signatures(submaps_.size());
     parallel_for(signatures.size(),
                  [&](std::size_t k) { signatures[k] = read_keyframe_place(run_, submaps_.number(k)); });
@@ -79,9 +51,9 @@ class RunPlaceMap final : public PlaceMap {
                                   const std::vector<Pose>& believed) const override;
 
   std::vector<PlaceAnswer> judge(const PointCloud& scan, const std::vector<Pose>& believed) const override {
-    const Query query{prepare_scan(scan, engine_), {}, 0.0};
     std::vector<PlaceAnswer> answers;
-    for (FoundPlace& one : distinct_places_found(verify(query, believed), options_)) {
+    Found found = registration_.at_poses(registration_.prepared(scan), believed);
+    for (FoundPlace& one : distinct_places_found(std::move(found), options_)) {
       one.answer.log_odds = one.voices.registration;
       answers.push_back(std::move(one.answer));
     }
@@ -96,36 +68,31 @@ class RunPlaceMap final : public PlaceMap {
   std::vector<std::size_t> twins(const Found& found, const std::vector<std::size_t>& asked) const;
   bool settled(const Found& found) const;
   double signature_lag(const Query& query, const Eigen::Vector3d& position) const;
-  Found register_to(const Query& query, const std::vector<std::size_t>& centers) const;
-  Found verify_at(const Query& query, std::size_t center, const Pose& T_map_lidar) const;
-  Found verify(const Query& query, const std::vector<Pose>& believed) const;
-  Found judged_nearby(const Query& query, Found found) const;
-  Found modes(const RegistrationResult& result, std::size_t center) const;
   std::vector<PlaceAnswer> concluded(Found found, const Query& query) const;
 
   RunFolder run_;
   RelocalizationOptions options_;
-  EngineOptions engine_;
   PlaceSubmaps submaps_;
+  PlaceRegistration registration_;
   PlaceIndex index_;
 };
 
 /// Asks a few places at a time, the most alike first, until one is sure and its twins have been asked.
 std::vector<PlaceAnswer> RunPlaceMap::search(const PointCloud& scan, std::size_t places,
                                              const std::vector<Pose>& believed) const {
-  Query query{prepare_scan(scan, engine_), {}, 0.0};
+  Query query{registration_.prepared(scan), {}, 0.0};
+  Found found = registration_.at_poses(query.scan, believed);
   if (places == 0) {
-    return concluded(verify(query, believed), query);
+    return concluded(std::move(found), query);
   }
   query.signature = place_of(voxel_downsampled(scan, kKeyframeVoxel));
   const std::vector<PlaceMatch> alike = index_.query(*query.signature, kMatchesPerPlace * places);
   query.least_distance = alike.empty() ? 0.0 : alike.front().distance;
   const std::vector<std::size_t> order = distinct_places(alike, places, {});
-  Found found = verify(query, believed);
   std::vector<std::size_t> asked;
   const auto ask = [&](const std::vector<std::size_t>& centers) {
     asked.insert(asked.end(), centers.begin(), centers.end());
-    append(found, judged_nearby(query, register_to(query, centers)));
+    append(found, registration_.judged_nearby(query.scan, registration_.to_submaps(query.scan, centers)));
   };
   bool sure = false;
   for (std::size_t done = 0, wave = 0; done < order.size() && !sure; ++wave) {
@@ -206,73 +173,6 @@ double RunPlaceMap::signature_lag(const Query& query, const Eigen::Vector3d& pos
   const auto here = [&](std::size_t k) { return submaps_.distance(k, position) < options_.place_radius_m; };
   const std::vector<PlaceMatch> nearest = index_.query_exactly(*query.signature, 1, here);
   return nearest.empty() ? kMostLag : nearest.front().distance - query.least_distance;
-}
-
-Found RunPlaceMap::modes(const RegistrationResult& result, std::size_t center) const {
-  const Pose& T_map_center = submaps_.T_map_keyframe(center);
-  const Matrix6d to_map = adjoint(T_map_center);
-  const std::vector<double> log_odds = log_odds_of_modes(result);
-  Found found;
-  for (std::size_t i = 0; i < log_odds.size(); ++i) {
-    if (log_odds[i] >= kLeastLogOdds) {
-      FoundPlace one;
-      one.answer.T_map_lidar = T_map_center * result.modes[i].T_target_source;
-      one.answer.covariance = to_map * result.covariance * to_map.transpose();
-      one.answer.evidence = result.modes[i].evidence;
-      one.voices.registration = log_odds[i];
-      one.center = center;
-      one.own_covariance = i == 0;
-      one.centers = {center};
-      found.push_back(std::move(one));
-    }
-  }
-  return found;
-}
-
-Found RunPlaceMap::register_to(const Query& query, const std::vector<std::size_t>& centers) const {
-  std::vector<Found> each(centers.size());
-  parallel_for(centers.size(), [&](std::size_t i) {
-    each[i] = modes(register_scans(query.scan, submaps_.prepared(centers[i]), engine_), centers[i]);
-  });
-  return joined(std::move(each));
-}
-
-/// A pose, as the submap around a center says.
-Found RunPlaceMap::verify_at(const Query& query, std::size_t center, const Pose& T_map_lidar) const {
-  const Pose T_center_source = submaps_.T_map_keyframe(center).inverse() * T_map_lidar;
-  return modes(verify_motion(query.scan, submaps_.prepared(center), T_center_source, engine_), center);
-}
-
-/// The poses that are believed, judged as those that were searched are.
-Found RunPlaceMap::verify(const Query& query, const std::vector<Pose>& believed) const {
-  std::vector<Found> each(believed.size());
-  parallel_for(believed.size(), [&](std::size_t i) {
-    for (const std::size_t center : submaps_.judges_of(believed[i].translation())) {
-      append(each[i], verify_at(query, center, believed[i]));
-    }
-  });
-  return joined(std::move(each));
-}
-
-/// With each answer, what those submaps say of it that see most of what the scan sees: the one by which it was found
-/// may be a hundred metres away.
-Found RunPlaceMap::judged_nearby(const Query& query, Found found) const {
-  Found distinct = distinct_places_found(std::move(found), options_);
-  std::vector<Found> each(distinct.size());
-  parallel_for(distinct.size(), [&](std::size_t i) {
-    const FoundPlace& one = distinct[i];
-    for (const std::size_t center : submaps_.judges_of(one.answer.T_map_lidar.translation())) {
-      if (one.voices.registration >= kSure || (one.own_covariance && one.centers.count(center) > 0)) {
-        continue;
-      }
-      for (FoundPlace& near : verify_at(query, center, one.answer.T_map_lidar)) {
-        near.voices.registration = std::min(near.voices.registration, one.voices.registration + kMostGain);
-        each[i].push_back(std::move(near));
-      }
-    }
-  });
-  append(distinct, joined(std::move(each)));
-  return distinct;
 }
 
 /// Each distinct answer once, the most probable first, with its log-odds among all places.
