@@ -81,6 +81,27 @@ TEST(PlaceSignature, BytesComeBackAndDamageIsNoticed) {
   EXPECT_THROW(PlaceSignature::from_bytes(bytes), InputError);
 }
 
+TEST(PlaceSignature, DoesNotChangeWithWhatOnlySomeSensorsSee) {
+  std::vector<Eigen::Vector3f> points = Town(5).seen_from(0, 0, 0);
+  const PlaceSignature without = place_signature(points);
+  Rng rng(8);
+  for (int i = 0; i < 3000; ++i) {  // crowns of trees and upper floors, kerbs and grass
+    const auto x = static_cast<float>(rng.uniform(-60.0, 60.0));
+    const auto y = static_cast<float>(rng.uniform(-60.0, 60.0));
+    points.emplace_back(x, y, static_cast<float>(i % 2 == 0 ? rng.uniform(3.1, 9.0) : rng.uniform(0.0, 0.9)));
+  }
+  EXPECT_EQ(place_signature(points).values, without.values);
+}
+
+TEST(PlaceSignature, OfAnEarlierVersionIsTold) {
+  std::string bytes = place_signature(Town(5).seen_from(0, 0, 0)).to_bytes();
+  EXPECT_FALSE(PlaceSignature::is_outdated(bytes));
+  EXPECT_FALSE(PlaceSignature::is_outdated(""));
+  bytes.replace(0, 4, "LPS1");
+  EXPECT_TRUE(PlaceSignature::is_outdated(bytes));
+  EXPECT_THROW(PlaceSignature::from_bytes(bytes), InputError);
+}
+
 TEST(PlaceSignature, OptionsAreChecked) {
   PlaceOptions options;
   options.harmonics = 40;

@@ -69,6 +69,11 @@ TEST(PlaceBeliefs, APlaceThatTheLatestScanFitsNearlyAsWellIsARival) {
   changed.add({fits(10.0, moved(5.0), 5.5), fits(300.0, moved(5.0), 1.5)}, moved(5.0));
   EXPECT_FALSE(changed.decided()) << "the latest scan tells them apart, but all together do not";
 
+  PlaceBeliefs weak({});
+  weak.add({fits(10.0, moved(0.0), 1.5), fits(300.0, moved(0.0), -0.5)}, moved(0.0));
+  EXPECT_GT(weak.best()->p, RelocalizationOptions().min_p_correct);
+  EXPECT_FALSE(weak.decided()) << "neither fits well, and the other one hardly less";
+
   PlaceBeliefs beside({});
   beside.add({fits(10.0, moved(0.0), 6.0), fits(12.0, moved(0.0), 4.0)}, moved(0.0));
   EXPECT_TRUE(beside.decided()) << "2 m apart they are one place: min_lead decides";
@@ -123,6 +128,20 @@ TEST(PlaceBeliefs, ProbabilitiesAndNoneOfTheseMakeOne) {
   }
   // Odds 9, 1, 0.25 against 1.
   EXPECT_NEAR(1.0 - sum, 1.0 / 11.25, 1e-9);
+}
+
+TEST(PlaceAnswers, SayTheSameOrAreOfDifferentPlacesOrNeither) {
+  const RelocalizationOptions options;
+  const Pose here = pose_from_yaw(0.3, {10.0, 20.0, 1.0});
+  const auto beside = [&](double metres, double degrees) {
+    return Pose(here * pose_from_yaw(degrees * 3.14159265 / 180.0, {0.0, metres, 0.0}));
+  };
+  EXPECT_TRUE(say_the_same(here, beside(0.9 * options.same_place_m, 0.9 * options.same_place_deg), options));
+  EXPECT_FALSE(say_the_same(here, beside(1.1 * options.same_place_m, 0.0), options));
+  EXPECT_FALSE(say_the_same(here, beside(0.0, 1.1 * options.same_place_deg), options));
+  EXPECT_FALSE(are_elsewhere(here, beside(4.9, 19.0)));
+  EXPECT_TRUE(are_elsewhere(here, beside(5.1, 0.0)));
+  EXPECT_TRUE(are_elsewhere(here, beside(0.0, -21.0)));
 }
 
 }  // namespace

@@ -41,23 +41,22 @@ TEST(PlaceCenters, EveryKeyframeIsNearItsCenterAsBruteForceFindsIt) {
   }
 }
 
-FoundPlace found(double x, double registration, std::size_t center, double lag) {
+FoundPlace found(double x, double registration, std::size_t center) {
   FoundPlace one;
   one.answer.T_map_lidar = at(x, 0.0);
-  one.voices = {registration, 1.0, lag};
+  one.voices.registration = registration;
   one.center = center;
   one.centers = {center};
   return one;
 }
 
 TEST(FoundPlaces, ThatSayTheSameAreOneWithTheVoicesOfAll) {
-  const auto distinct = distinct_places_found(
-      {found(10.0, 1.0, 4, 0.2), found(90.0, 2.0, 7, 0.1), found(10.4, 3.0, 5, 0.3), found(10.2, -2.0, 4, 0.2)}, {});
+  const auto distinct =
+      distinct_places_found({found(10.0, 1.0, 4), found(90.0, 2.0, 7), found(10.4, 3.0, 5), found(10.2, -2.0, 4)}, {});
   ASSERT_EQ(distinct.size(), 2U);
   EXPECT_DOUBLE_EQ(distinct[0].answer.T_map_lidar.translation().x(), 10.4);
   EXPECT_DOUBLE_EQ(distinct[0].voices.registration, 3.0);
   EXPECT_DOUBLE_EQ(distinct[0].voices.support, 2.0) << "two submaps, one of them with two modes";
-  EXPECT_DOUBLE_EQ(distinct[0].voices.signature_lag, 0.2);
   EXPECT_DOUBLE_EQ(distinct[1].voices.support, 1.0);
 }
 

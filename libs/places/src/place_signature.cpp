@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/places/place_signature.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -17,7 +18,8 @@ namespace {
 constexpr float kMagnitudePower = 0.7F;
 constexpr float kHarmonicWeight = 2.0F;
 
-constexpr std::uint32_t kMagic = 0x3153504cU;  // "LPS1"
+constexpr std::uint32_t kOutdated = 0x3153504cU;  // "LPS1": heights of 0.4 to 8 m
+constexpr std::uint32_t kMagic = 0x3253504cU;     // "LPS2"
 
 }  // namespace
 
@@ -70,6 +72,12 @@ std::string PlaceSignature::to_bytes() const {
   const std::uint32_t checksum = crc32(bytes);
   bytes.append(reinterpret_cast<const char*>(&checksum), 4);
   return bytes;
+}
+
+bool PlaceSignature::is_outdated(const std::string& bytes) {
+  std::uint32_t magic = 0;
+  std::memcpy(&magic, bytes.data(), std::min(bytes.size(), sizeof magic));
+  return magic == kOutdated;
 }
 
 PlaceSignature PlaceSignature::from_bytes(const std::string& bytes) {

@@ -14,15 +14,13 @@ std::vector<FoundPlace> distinct_places_found(std::vector<FoundPlace> found, con
   std::vector<FoundPlace> distinct;
   for (FoundPlace& one : found) {
     const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const FoundPlace& other) {
-      const PoseError error = pose_error(one.answer.T_map_lidar, other.answer.T_map_lidar);
-      return error.translation_m < options.same_place_m && error.rotation_deg < options.same_place_deg;
+      return say_the_same(one.answer.T_map_lidar, other.answer.T_map_lidar, options);
     });
     if (same == distinct.end()) {
       distinct.push_back(std::move(one));
       continue;
     }
-    same->centers.insert(one.center);
-    same->voices.signature_lag = std::min(same->voices.signature_lag, one.voices.signature_lag);
+    same->centers.insert(one.centers.begin(), one.centers.end());
   }
   for (FoundPlace& one : distinct) {
     one.voices.support = static_cast<double>(one.centers.size());

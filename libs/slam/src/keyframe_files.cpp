@@ -34,7 +34,9 @@ void write_keyframe_place(const RunFolder& folder, std::size_t number, const Poi
 }
 
 PlaceSignature read_keyframe_place(const RunFolder& folder, std::size_t number) {
-  return PlaceSignature::from_bytes(read_file(folder.keyframe(number, "place")));
+  const std::string bytes = read_file(folder.keyframe(number, "place"));
+  return PlaceSignature::is_outdated(bytes) ? place_of(read_keyframe_cloud(folder, number))
+                                            : PlaceSignature::from_bytes(bytes);
 }
 
 void keep_records(const std::filesystem::path& path, std::size_t count) {

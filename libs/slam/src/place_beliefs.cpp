@@ -11,7 +11,7 @@ namespace {
 constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
 constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
 constexpr double kElsewhereDeg = 20.0;
-constexpr double kClearLead = 3.0;     ///< in log-odds, over another place that the latest scan fits too
+constexpr double kClearLead = 3.0;     ///< in log-odds, over another place
 constexpr double kUnconfirmed = -5.0;  ///< log-odds that stand for a scan that does not confirm a place
 constexpr double kForgotten = -4.0;    ///< log-odds below which a place is dropped
 
@@ -33,9 +33,14 @@ std::vector<double> probabilities(const std::vector<PlaceAnswer>& answers) {
   return p;
 }
 
-bool PlaceBeliefs::same(const Pose& a, const Pose& b) const {
+bool say_the_same(const Pose& a, const Pose& b, const RelocalizationOptions& options) {
   const PoseError error = pose_error(a, b);
-  return error.translation_m < options_.same_place_m && error.rotation_deg < options_.same_place_deg;
+  return error.translation_m < options.same_place_m && error.rotation_deg < options.same_place_deg;
+}
+
+bool are_elsewhere(const Pose& a, const Pose& b) {
+  const PoseError apart = pose_error(a, b);
+  return apart.translation_m > kElsewhereM || apart.rotation_deg > kElsewhereDeg;
 }
 
 void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_odometry_lidar) {
@@ -47,7 +52,7 @@ void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_od
   std::vector<bool> confirmed(known, false);
   for (const PlaceAnswer& answer : ranked) {
     const auto says_the_same = [&](const PlaceBelief& belief) {
-      return same(belief.T_map_odometry * T_odometry_lidar, answer.T_map_lidar);
+      return say_the_same(belief.T_map_odometry * T_odometry_lidar, answer.T_map_lidar, options_);
     };
     const auto found = std::find_if(beliefs_.begin(), beliefs_.end(), says_the_same);
     if (found == beliefs_.end()) {
@@ -103,10 +108,9 @@ bool PlaceBeliefs::decided() const {
   }
   const PlaceBelief& best = beliefs_.front();
   return std::none_of(beliefs_.begin() + 1, beliefs_.end(), [&](const PlaceBelief& other) {
-    const PoseError apart = pose_error(other.T_map_odometry * latest_, best.T_map_odometry * latest_);
-    const bool elsewhere = apart.translation_m > kElsewhereM || apart.rotation_deg > kElsewhereDeg;
+    const bool elsewhere = are_elsewhere(other.T_map_odometry * latest_, best.T_map_odometry * latest_);
     const double lead = std::min(best.log_odds - other.log_odds, best.latest - other.latest);
-    return best.p < options_.min_lead * other.p || (elsewhere && other.latest >= 0.0 && lead < kClearLead);
+    return best.p < options_.min_lead * other.p || (elsewhere && lead < kClearLead);
   });
 }
 

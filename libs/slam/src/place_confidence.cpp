@@ -11,7 +11,6 @@ namespace {
 
 // Written by scripts/fit_places.py.
 constexpr double kSignatureLag = -101.5;
-constexpr double kMostLag = 0.03;                                         // a lag beyond it says no more
 constexpr Comparison kBeyondBest = {8.57, -1.87, -0.216, -0.878, -24.6};  // in the order of kCompared
 
 constexpr double kLeastP = 1e-9;

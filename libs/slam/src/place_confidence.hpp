@@ -13,6 +13,8 @@ namespace loopmark {
 /// The engine's evidence by which answers at different places are compared (docs/registration.md says what each is).
 constexpr std::array<std::string_view, 5> kCompared = {"agreement", "low_absence", "tall_clash", "far_conflict",
                                                        "ground_gap"};
+constexpr double kMostLag =
+    0.03;  ///< a signature's lag beyond it says no more: another sensor or a changed place may lag far
 using Comparison = std::array<double, kCompared.size()>;
 
 /// What speaks for one answer to "where in the map is this scan?".

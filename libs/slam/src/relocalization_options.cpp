@@ -21,6 +21,7 @@ const char* name(RelocalizationState state) {
 void check(const RelocalizationOptions& o) {
   require_option(o.places >= 1, "places", "must be at least 1");
   require_option(o.place_radius_m > 0.0, "place_radius_m", "must be positive");
+  require_option(o.places_apart_m > 0.0, "places_apart_m", "must be positive");
   require_option(o.min_p_correct > 0.0 && o.min_p_correct < 1.0, "min_p_correct", "must be above 0, below 1");
   require_option(o.min_lead >= 1.0, "min_lead", "must be at least 1");
   require_option(o.tracking_p >= o.min_p_correct && o.tracking_p < 1.0, "tracking_p", "must be min_p_correct to 1");

@@ -15,8 +15,8 @@ namespace loopmark {
 struct PlaceOptions {
   double cell_m = 1.0;         ///< edge of a cell of the bird's-eye view
   double radius_m = 96.0;      ///< what is further from the sensor is left out
-  double min_height_m = 0.4;   ///< structure begins there above the ground
-  double max_height_m = 8.0;   ///< and ends there
+  double min_height_m = 1.0;   ///< structure begins there above the ground
+  double max_height_m = 3.0;   ///< and ends there: above it, some sensors see crowns and upper floors, others nothing
   std::size_t radii = 32;      ///< frequencies sampled, from long waves to four cells
   std::size_t angles = 64;     ///< directions sampled over half a turn
   std::size_t harmonics = 16;  ///< of each frequency's profile over the directions
@@ -42,6 +42,8 @@ struct PlaceSignature {
 
   /// Bytes that from_bytes restores exactly. Throws InputError on bytes that are damaged.
   std::string to_bytes() const;
+  /// Whether the bytes were written by an earlier version, which drew places in another way.
+  static bool is_outdated(const std::string& bytes);
   static PlaceSignature from_bytes(const std::string& bytes);
 };
 

@@ -23,6 +23,13 @@ struct PlaceAnswer {
 /// P(correct) of each answer to one scan: exp(l_i) / (1 + sum_j exp(l_j)), all answers and "none of these" together.
 std::vector<double> probabilities(const std::vector<PlaceAnswer>& answers);
 
+/// Whether two answers to one scan say the same (options: same_place_m, same_place_deg).
+bool say_the_same(const Pose& a, const Pose& b, const RelocalizationOptions& options);
+
+/// Whether two answers are of different places: 5 m or 20 degrees apart. In between they are two answers about one
+/// place.
+bool are_elsewhere(const Pose& a, const Pose& b);
+
 /// A place the sensor may be at.
 struct PlaceBelief {
   Pose T_map_odometry = Pose::Identity();
@@ -45,16 +52,15 @@ class PlaceBeliefs {
   /// The most probable place, or nothing.
   std::optional<PlaceBelief> best() const;
 
-  /// Whether the most probable place is min_lead times as probable as the next one, the latest scan fits it, and fits
-  /// no other place (5 m or 20 degrees away) nearly as well: where it fits one at all, the place must lead by
-  /// kClearLead, in what the latest scan says and in what all say together.
+  /// Whether the latest scan fits the most probable place, which is min_lead times as probable as the next one and
+  /// leads every other place (5 m or 20 degrees away) by log-odds of 3, in what the latest scan says and in what all
+  /// say.
   bool decided() const;
 
   const std::vector<PlaceBelief>& all() const { return beliefs_; }
   void clear() { beliefs_.clear(); }
 
  private:
-  bool same(const Pose& a, const Pose& b) const;
   void normalise();
 
   RelocalizationOptions options_;

@@ -8,9 +8,10 @@ namespace loopmark {
 
 /// How a place is searched in a map, and when it counts as found or lost.
 struct RelocalizationOptions {
-  std::size_t places = 8;          ///< places of the map that a searching scan is registered to
+  std::size_t places = 8;          ///< places of the map that a searching scan is registered to, at most
   std::size_t twins = 3;           ///< further places, that look like the one where a scan was found
   double place_radius_m = 12.0;    ///< keyframes nearer than this are one place, and form its submap
+  double places_apart_m = 30.0;    ///< of the places that are asked: registration reaches further than a submap
   double search_every_m = 1.0;     ///< while searching, a scan is registered after this distance
   double min_p_correct = 0.5;      ///< answers below this probability are not given
   double min_lead = 4.0;           ///< nor while the next place is more than one so many-th as probable
@@ -30,9 +31,10 @@ struct RelocalizationOptions {
 
 template <class Visitor>
 void describe(Visitor& v, RelocalizationOptions& o) {
-  v.field("places", o.places, "places of the map that a searching scan is registered to");
+  v.field("places", o.places, "places of the map that a searching scan is registered to, at most");
   v.field("twins", o.twins, "further places, that look like the one where a scan was found");
   v.field("place_radius_m", o.place_radius_m, "keyframes nearer than this are one place, and form its submap, metres");
+  v.field("places_apart_m", o.places_apart_m, "least distance of the places that are asked from each other, metres");
   v.field("search_every_m", o.search_every_m, "while searching, a scan is registered after this distance, metres");
   v.field("min_p_correct", o.min_p_correct, "answers below this probability are not given");
   v.field("min_lead", o.min_lead, "nor while the next place is more than one so many-th as probable");
