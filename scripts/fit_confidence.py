@@ -164,7 +164,7 @@ def main():
 HEAD = """// SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 /// What each number of the evidence is worth in each scene. Written by scripts/fit_confidence.py, in the order of
-/// kFeatureNames and kScenes.
+/// kFeatureNames and of scene_shares().
 #pragma once
 
 #include "confidence.hpp"

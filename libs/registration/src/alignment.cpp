@@ -63,20 +63,19 @@ void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Patch& targe
 NormalEquations equations(const std::vector<Patch>& source, const PatchMap& target, const Eigen::Isometry3f& T,
                           float reach_m, double scale_m) {
   constexpr std::size_t kBlock = 2048;
-  std::vector<NormalEquations> blocks((source.size() + kBlock - 1) / kBlock);
-  parallel_blocks(source.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    NormalEquations& sum = blocks[begin / kBlock];
+  const auto of_block = [&](std::size_t begin, std::size_t end) {
+    NormalEquations sum;
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3f p = T * source[i].mean;
       if (const Patch* partner = target.nearest(p, reach_m)) {
         add_term(sum, p, *partner, scale_m);
       }
     }
-  });
-  NormalEquations all;
-  for (const NormalEquations& block : blocks) {
-    all += block;
-  }
+    return sum;
+  };
+  NormalEquations all =
+      parallel_reduce_ordered(source.size(), kBlock, NormalEquations{}, of_block,
+                              [](NormalEquations& total, const NormalEquations& part) { total += part; });
   all.h.bottomLeftCorner<3, 3>() = all.h.topRightCorner<3, 3>().transpose();
   return all;
 }

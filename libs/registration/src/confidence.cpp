@@ -23,10 +23,7 @@ std::array<double, kScenes> scene_shares(const Features& features) {
 
 /// The value of a feature's curves, mixed by the shares of the scenes.
 double worth_of(const Worth& w, double value, const std::array<double, kScenes>& shares) {
-  std::size_t above = 0;
-  while (above < w.at.size() && !(value < w.at[above])) {
-    ++above;
-  }
+  const auto above = static_cast<std::size_t>(std::upper_bound(w.at.begin(), w.at.end(), value) - w.at.begin());
   const std::size_t i = std::clamp<std::size_t>(above, 1, w.at.size() - 1);
   const double t = std::clamp((value - w.at[i - 1]) / (w.at[i] - w.at[i - 1]), 0.0, 1.0);
   double sum = 0.0;
