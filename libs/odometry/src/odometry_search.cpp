@@ -37,6 +37,17 @@ bool same_place(const Pose& a, const Pose& b, double distance_m) {
 
 }  // namespace
 
+std::vector<Pose> straight_motions(const std::vector<double>& distances_m) {
+  std::vector<Pose> result;
+  for (const double distance_m : distances_m) {
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const double heading = quarter * M_PI / 2.0;
+      result.push_back(pose_from_yaw(0.0, distance_m * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0)));
+    }
+  }
+  return result;
+}
+
 std::vector<Odometry::Start> Odometry::starts(double stamp_s) const {
   const double gap_s = gap_to(stamp_s);
   const auto after = [&](double share) {
@@ -52,7 +63,6 @@ std::vector<Odometry::Start> Odometry::starts(double stamp_s) const {
 
 /// Around the last pose: a log may start while moving, a hand-held sensor may turn in any way, scans may be missing.
 std::vector<Odometry::Start> Odometry::wide_starts(double stamp_s) const {
-  constexpr double kFastest = 35.0;  // m/s
   constexpr int kTurns = 24;
   const double gap_s = gap_to(stamp_s);
   std::vector<Start> result = starts(stamp_s);
@@ -62,13 +72,10 @@ std::vector<Odometry::Start> Odometry::wide_starts(double stamp_s) const {
   for (int turn = 0; turn < kTurns; ++turn) {
     add(pose_from_yaw(2.0 * M_PI * turn / kTurns));
   }
-  for (const double distance : {0.7, 1.4, 2.1, 2.8, 3.5, 5.0, 7.0, 10.0, 14.0}) {
-    if (distance <= kFastest * gap_s) {
-      for (int quarter = 0; quarter < 4; ++quarter) {
-        const double heading = quarter * M_PI / 2.0;
-        add(pose_from_yaw(0.0, distance * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0)));
-      }
-    }
+  std::vector<double> distances_m = {0.7, 1.4, 2.1, 2.8, 3.5, 5.0, 7.0, 10.0, 14.0};
+  std::erase_if(distances_m, [&](double distance_m) { return distance_m > kFastest * gap_s; });
+  for (const Pose& T_last_lidar : straight_motions(distances_m)) {
+    add(T_last_lidar);
   }
   return result;
 }

@@ -8,6 +8,10 @@ namespace loopmark {
 
 constexpr std::size_t kLeastStructure = 4;  // keypoints above the ground that can tell one answer from another
 constexpr double kUsualGapS = 0.2;          // longer gaps between scans make the prediction less certain
+constexpr double kFastest = 35.0;           // m/s
+
+/// Straight motions over each distance: ahead, to the left, back and to the right.
+std::vector<Pose> straight_motions(const std::vector<double>& distances_m);
 
 /// A guess of where the scan is; how its motion follows from the last scan unless the guess says otherwise.
 struct Odometry::Start {

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kCarefulGapS = 0.3;  // between scans
 constexpr double kStartM = 15.0;      // a piece starts within this distance
-constexpr double kFastest = 35.0;     // m/s
 constexpr double kFarthest = 20.0;    // metres between the first two scans, of what is searched
 constexpr double kMostSteps = 50.0;
 constexpr std::size_t kMostPoints = 3000;  // of a scan's structure, for a first look
@@ -49,18 +48,6 @@ double fit(const LocalMap& map, const std::vector<Eigen::Vector3d>& points) {
   return sum;
 }
 
-/// Straight motions ahead, back and to the sides.
-std::vector<Pose> straight_motions(double step_m, double farthest_m) {
-  std::vector<Pose> result;
-  for (double distance_m = step_m; distance_m <= farthest_m; distance_m += step_m) {
-    for (int quarter = 0; quarter < 4; ++quarter) {
-      const double heading = quarter * M_PI / 2.0;
-      result.push_back(pose_from_yaw(0.0, distance_m * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0)));
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 /// While the motion is not sure, ground counts across its planes only, and what rises from it ranks the answers: at the
@@ -81,7 +68,11 @@ std::vector<Odometry::Start> Odometry::straight_starts(const TrackedScan& prepar
   const double farthest_m = std::min(kFastest * gap_s, kFarthest);
   const double step_m = std::max(kStepVoxels * map_->voxel_m(), farthest_m / kMostSteps);
   std::vector<Start> tried;
-  for (const Pose& T_last_lidar : straight_motions(step_m, farthest_m)) {
+  std::vector<double> distances_m;
+  for (double distance_m = step_m; distance_m <= farthest_m; distance_m += step_m) {
+    distances_m.push_back(distance_m);
+  }
+  for (const Pose& T_last_lidar : straight_motions(distances_m)) {
     tried.push_back({last_->T_map_lidar * T_last_lidar, log_se3(T_last_lidar) / gap_s});
   }
   TrackedScan first = *last_;
