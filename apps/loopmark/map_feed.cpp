@@ -77,10 +77,12 @@ void feed(Mapper& mapper, const DriveLog& log, InputRecord& inputs, MapTimes& ti
       mapper.checkpoint();
       check_interrupt();
     }
-    if ((index + 1) % kCheckpointEvery == 0 || index + 1 == log.size()) {
+    if ((index + 1) % kCheckpointEvery == 0) {
       mapper.checkpoint();
     }
   }
+  mapper.end_log();
+  mapper.checkpoint();
 }
 
 }  // namespace loopmark::app

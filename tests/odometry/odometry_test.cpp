@@ -51,6 +51,31 @@ TEST(Odometry, FollowsADriveThatStartsWhileMoving) {
   EXPECT_LT(error.rotation_deg, 0.4);
 }
 
+/// A car that steers harder and harder: its rate of turn grows by 1 rad/s each second.
+TEST(Odometry, KnowsHowTheSensorTurnedDuringASweep) {
+  const BoxWorld world = testing_support::street(120.0, 5);
+  Odometry odometry({}, Compensation::kRawGivenTimes);
+  Pose truth = pose_from_yaw(-0.3, {0.0, 0.0, 1.8});
+  double worst_mean = 0.0;  // rad/s by which the mean since the last scan, what it was deskewed with,
+  double worst_sweep = 0.0;
+  double worst_settled = 0.0;  // and what is known one scan later are off
+  for (std::size_t i = 0; i < 10; ++i) {
+    const double rate = 0.1 * static_cast<double>(i);
+    const Vector6d velocity = (Vector6d() << 8.0, 0.0, 0.0, 0.0, 0.0, rate).finished();
+    const TrackedScan tracked = odometry.track({i, rate, testing_support::sweep(world, truth, velocity, 0.01, i)});
+    if (i > 2) {
+      worst_mean = std::max(worst_mean, std::abs(tracked.velocity[5] - rate));
+      worst_sweep = std::max(worst_sweep, std::abs(tracked.sweep_velocity[5] - rate));
+      worst_settled = std::max(worst_settled, std::abs(odometry.sweep_of_last(tracked)[5] - (rate - 0.1)));
+    }
+    odometry.commit(tracked);
+    truth = truth * exp_se3(0.1 * (Vector6d() << 8.0, 0.0, 0.0, 0.0, 0.0, rate + 0.05).finished());
+  }
+  EXPECT_NEAR(worst_mean, 0.05, 0.03);  // half a scan behind
+  EXPECT_LT(worst_sweep, 0.03);
+  EXPECT_LT(worst_settled, 0.015);
+}
+
 /// Metres by which the odometry misses a straight drive of ten scans over open land that it begins at speed.
 double miss_on_open_land(double speed, double rate_hz, std::uint64_t seed) {
   constexpr int kBeams = 16;

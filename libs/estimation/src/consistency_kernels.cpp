@@ -13,6 +13,8 @@ LOOPMARK_DISPATCH
 void consistency_row(const PairArrays& pairs, std::size_t i, float tolerance, std::uint8_t* __restrict consistent) {
   const float *sx = pairs.v[0], *sy = pairs.v[1], *sz = pairs.v[2];
   const float *tx = pairs.v[3], *ty = pairs.v[4], *tz = pairs.v[5];
+  // |a - b| < t without roots: a^2 + b^2 < t^2, or (a^2 - b^2)^2 < t^2 (2 (a^2 + b^2) - t^2).
+  const float t2 = tolerance * tolerance;
   const float px = sx[i], py = sy[i], pz = sz[i];
   const float qx = tx[i], qy = ty[i], qz = tz[i];
   for (std::size_t j = 0; j < pairs.count; ++j) {
@@ -22,8 +24,11 @@ void consistency_row(const PairArrays& pairs, std::size_t i, float tolerance, st
     const float bx = tx[j] - qx;
     const float by = ty[j] - qy;
     const float bz = tz[j] - qz;
-    const float gap = std::sqrt(ax * ax + ay * ay + az * az) - std::sqrt(bx * bx + by * by + bz * bz);
-    consistent[j] = std::fabs(gap) < tolerance ? 1 : 0;
+    const float a2 = ax * ax + ay * ay + az * az;
+    const float b2 = bx * bx + by * by + bz * bz;
+    const float gap = a2 - b2;
+    const float sum = a2 + b2;
+    consistent[j] = (sum < t2) | (gap * gap < t2 * (2.0F * sum - t2)) ? 1 : 0;
   }
 }
 

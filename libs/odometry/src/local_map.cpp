@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loopmark/core/byte_stream.hpp"
 #include "loopmark/core/parallel.hpp"
-#include "state_bytes.hpp"
 
 namespace loopmark {
 namespace {

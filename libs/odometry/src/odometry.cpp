@@ -130,7 +130,7 @@ void Odometry::learn_motion(const TrackedScan& tracked) {
     deviations_.pop_front();
   }
   if (committed_ == 1 && deskews()) {
-    last_->velocity = tracked.velocity;
+    last_->velocity = last_->sweep_velocity = tracked.velocity;
     rebuild_first_scan();
   }
 }

@@ -5,7 +5,7 @@
 
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/features/ground.hpp"
-#include "loopmark/odometry/odometry.hpp"
+#include "odometry_search.hpp"
 
 namespace loopmark {
 namespace {
@@ -62,8 +62,42 @@ TrackedScan Odometry::prepare(const Scan& scan) const {
   return tracked;
 }
 
+/// Middle of the sweep against the scan's stamp, seconds.
+double middle_of_sweep(const std::vector<float>& times) {
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  return 0.5 * (static_cast<double>(*first) + static_cast<double>(*last));
+}
+
+/// The mean since the last scan lags behind by half a scan. How fast a car turns changes within tenths of a second, and
+/// a wrong turn bends the scan, so the rate of turn about the sensor's upright axis is carried on to the middle of the
+/// sweep. Roll and pitch are left: their rates are noise for the better part, and carrying on doubles it.
+Vector6d Odometry::during_sweep(const TrackedScan& tracked) const {
+  Vector6d velocity = tracked.velocity;
+  const std::vector<float>& times = tracked.sample.time_offset_s;
+  const double gap_s = gap_to(tracked.stamp_s);
+  if (committed_ < 2 || times.empty() || std::max(gap_s, last_gap_s_) > kUsualGapS) {
+    return velocity;
+  }
+  const double ahead_s = 0.5 * gap_s + middle_of_sweep(times);
+  velocity[5] += (velocity[5] - last_->velocity[5]) * ahead_s / (0.5 * (gap_s + last_gap_s_));
+  return velocity;
+}
+
+Vector6d Odometry::sweep_of_last(const TrackedScan& next) const {
+  const double gap_s = gap_to(next.stamp_s);
+  const std::vector<float>& times = last_->sample.time_offset_s;
+  if (committed_ == 1) {
+    return next.velocity;
+  }
+  if (times.empty() || std::max(gap_s, last_gap_s_) > kUsualGapS) {
+    return last_->sweep_velocity;
+  }
+  const double share = (0.5 * last_gap_s_ + middle_of_sweep(times)) / (0.5 * (gap_s + last_gap_s_));
+  return last_->velocity + share * (next.velocity - last_->velocity);
+}
+
 std::vector<Eigen::Vector3f> Odometry::deskewed_sample(const TrackedScan& tracked) const {
-  return deskews() ? deskewed(tracked.sample.points, tracked.sample.time_offset_s, tracked.velocity)
+  return deskews() ? deskewed(tracked.sample.points, tracked.sample.time_offset_s, tracked.sweep_velocity)
                    : tracked.sample.points;
 }
 

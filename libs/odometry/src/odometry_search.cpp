@@ -87,6 +87,7 @@ void Odometry::align_from(TrackedScan& tracked, const Start& start, double thres
 void Odometry::align_to(const LocalMap& map, TrackedScan& tracked, const Start& start, double threshold_m) const {
   tracked.T_map_lidar = start.T_map_lidar;
   tracked.velocity = start.velocity;
+  tracked.sweep_velocity = start.velocity;
   const double gap_s = gap_to(tracked.stamp_s);
   const int rounds = deskews() ? 2 : 1;  // the second with the velocity that the first has found
   for (int round = 0; round < rounds; ++round) {
@@ -98,6 +99,7 @@ void Odometry::align_to(const LocalMap& map, TrackedScan& tracked, const Start& 
       tracked.health.structure = 0;
     }
     tracked.velocity = log_se3(last_->T_map_lidar.inverse() * tracked.T_map_lidar) / gap_s;
+    tracked.sweep_velocity = during_sweep(tracked);
   }
 }
 
@@ -175,7 +177,7 @@ TrackedScan Odometry::best_of_wide(const TrackedScan& prepared, const TrackedSca
 /// sharp if that is right; without this, standing still would fit best, as the rings of the ground do not move.
 void Odometry::align_to_deskewed_first(TrackedScan& answer) const {
   TrackedScan first = *last_;
-  first.velocity = answer.velocity;
+  first.sweep_velocity = answer.velocity;
   LocalMap map(map_->voxel_m(), options_.points_per_voxel);
   map.insert(in_map(first));
   align_to(map, answer, {answer.T_map_lidar, answer.velocity}, map.voxel_m());

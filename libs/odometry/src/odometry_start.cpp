@@ -83,7 +83,7 @@ std::vector<Odometry::Start> Odometry::straight_starts(const TrackedScan& prepar
   parallel_for(tried.size(), [&](std::size_t i) {
     TrackedScan before = first;
     TrackedScan now = second;
-    before.velocity = now.velocity = tried[i].velocity;
+    before.sweep_velocity = now.sweep_velocity = tried[i].velocity;
     now.T_map_lidar = tried[i].T_map_lidar;
     LocalMap map(map_->voxel_m(), options_.points_per_voxel);
     map.insert(in_map(before));

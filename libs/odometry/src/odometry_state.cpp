@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/core/byte_stream.hpp"
 #include "loopmark/core/files.hpp"
 #include "loopmark/odometry/odometry.hpp"
-#include "state_bytes.hpp"
 
 namespace loopmark {
 namespace {
@@ -15,22 +15,7 @@ Pose read_pose(ByteReader& reader) {
   return pose;
 }
 
-void write_points(ByteWriter& writer, const std::vector<Eigen::Vector3f>& points) {
-  writer.value(points.size());
-  for (const Eigen::Vector3f& point : points) {
-    writer.raw(point.data(), 3);
-  }
-}
-
-std::vector<Eigen::Vector3f> read_points(ByteReader& reader) {
-  std::vector<Eigen::Vector3f> points;
-  for (auto left = reader.value<std::size_t>(); left > 0; --left) {
-    reader.raw(points.emplace_back().data(), 3);
-  }
-  return points;
-}
-
-constexpr std::uint64_t kFormat = 0x6f646f6d65747233;  // "odometr3": changes with what is written
+constexpr std::uint64_t kFormat = 0x6f646f6d65747234;  // "odometr4": changes with what is written
 
 void write_directions(ByteWriter& writer, const std::vector<Eigen::Vector3d>& directions) {
   writer.value(directions.size());
@@ -63,8 +48,9 @@ std::string Odometry::state() const {
     writer.value(last_->stamp_s);
     write_pose(writer, last_->T_map_lidar);
     writer.raw(last_->velocity.data(), 6);
+    writer.raw(last_->sweep_velocity.data(), 6);
     write_directions(writer, last_->health.degenerate_directions);
-    write_points(writer, last_->sample.points);
+    writer.points(last_->sample.points);
     writer.vector(last_->sample.time_offset_s);
     writer.text(map_->to_bytes());
     writer.text(coarse_->to_bytes());
@@ -98,8 +84,9 @@ void Odometry::set_state(const std::string& bytes) {
     last.stamp_s = reader.value<double>();
     last.T_map_lidar = read_pose(reader);
     reader.raw(last.velocity.data(), 6);
+    reader.raw(last.sweep_velocity.data(), 6);
     last.health.degenerate_directions = read_directions(reader);
-    last.sample.points = read_points(reader);
+    last.sample.points = reader.points();
     last.sample.time_offset_s = reader.vector<float>();
     map_ = LocalMap::from_bytes(reader.text());
     coarse_ = LocalMap::from_bytes(reader.text());

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/slam/mapper.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "keyframe_files.hpp"
@@ -12,20 +11,6 @@
 #include "mapper_placed.hpp"
 
 namespace loopmark {
-namespace {
-
-std::filesystem::path state_file(const RunFolder& folder) { return folder / "records/odometry.state"; }
-
-template <class Record>
-std::vector<Record> read_all(const std::filesystem::path& path, Record (*parse)(const std::string&)) {
-  std::vector<Record> records;
-  for (const std::string& line : read_records(path).lines) {
-    records.push_back(parse(line));
-  }
-  return records;
-}
-
-}  // namespace
 
 Mapper::Mapper(const RunFolder& folder, const MapperOptions& options, std::shared_ptr<const Registrar> registrar,
                Compensation compensation, const SweepModel& sweep)
@@ -41,35 +26,12 @@ Mapper::Mapper(const RunFolder& folder, const MapperOptions& options, std::share
 
 Mapper::~Mapper() = default;
 
-void Mapper::load() {
-  scans_ = read_all(folder_.scan_records(), scan_from_line);
-  std::size_t known = 0;
-  if (std::filesystem::exists(state_file(folder_))) {
-    const std::string bytes = read_file(state_file(folder_));
-    const std::size_t line_end = bytes.find('\n');
-    known = std::stoul(bytes.substr(0, line_end));
-    odometry_.set_state(bytes.substr(line_end + 1));
-  }
-  // Records behind the saved state are made again: the same bytes, as the odometry is the same.
-  scans_.resize(std::min(scans_.size(), known));
-  keep_records(folder_.scan_records(), scans_.size());
-  for (const ScanRecord& scan : scans_) {
-    piece_ = std::max(piece_, scan.piece);
-    bad_scans_ += scan.state == ScanState::kDamaged ? 1 : 0;
-  }
-  for (const ScanRecord& scan : scans_) {
-    path_.add(scan, keyframes_);
-  }
-  loops_ = read_all(folder_.loop_records(), loop_from_line);
-}
-
-void Mapper::checkpoint() const {
-  const std::string state = odometry_.state();
-  write_file_atomically(state_file(folder_), std::to_string(scans_.size()) + "\n" + state);
-}
-
 const ScanRecord& Mapper::add(const Scan& scan) {
   Placed placed = place(scan);
+  if (held_ && placed.state == ScanState::kTracked) {
+    settle(odometry_.sweep_of_last(placed.tracked));
+  }
+  settle();
   odometry_.commit(placed.tracked);
   ScanRecord record;
   record.scan = scan.index;
@@ -77,7 +39,7 @@ const ScanRecord& Mapper::add(const Scan& scan) {
   record.state = placed.state;
   record.piece = piece_;
   record.T_piece_lidar = placed.tracked.T_map_lidar;
-  record.velocity = placed.tracked.velocity;
+  record.velocity = placed.tracked.sweep_velocity;
   record.inlier_share = placed.tracked.health.inlier_share;
   record.residual_m = placed.tracked.health.residual_m;
   record.degenerate = placed.tracked.health.degenerate_directions.size();
@@ -85,9 +47,14 @@ const ScanRecord& Mapper::add(const Scan& scan) {
   record.covariance = placed.tracked.health.covariance;
   record.problem = placed.problem;
   if (deserves_keyframe(placed.tracked, placed.state)) {
-    keep_keyframe(scan, record);
+    record.keyframe = keyframes_.size();
+    held_ = scan;
   }
-  return keep(std::move(record));
+  keep(std::move(record));
+  if (!odometry_.deskews()) {
+    settle();
+  }
+  return scans_.back();
 }
 
 bool Mapper::deserves_keyframe(const TrackedScan& tracked, ScanState state) const {
@@ -100,8 +67,7 @@ bool Mapper::deserves_keyframe(const TrackedScan& tracked, ScanState state) cons
   return novel || moved.translation_m > options_.slam.keyframe_m || moved.rotation_deg > options_.slam.keyframe_deg;
 }
 
-void Mapper::keep_keyframe(const Scan& scan, ScanRecord& record) {
-  record.keyframe = keyframes_.size();
+void Mapper::write_keyframe(const Scan& scan, const ScanRecord& record) const {
   const PointCloud cloud = odometry_.deskewed_cloud(scan, record.velocity);
   const PointCloud thin = voxel_downsampled(cloud, options_.slam.keyframe_voxel_m);
   write_keyframe_cloud(folder_, *record.keyframe, thin);
@@ -111,14 +77,32 @@ void Mapper::keep_keyframe(const Scan& scan, ScanRecord& record) {
   }
 }
 
-const ScanRecord& Mapper::keep(ScanRecord record) {
+/// Writes the keyframe that was held back, with what is known of its motion.
+void Mapper::settle() {
+  if (held_) {
+    settle(scans_.back().velocity);
+  }
+}
+
+/// How the sensor moved while it took a keyframe is known best once the next scan has its pose.
+void Mapper::settle(const Vector6d& velocity) {
+  ScanRecord& record = scans_.back();
+  record.velocity = velocity;
+  write_keyframe(*held_, record);
   scan_file_->append(to_line(record));
+  held_.reset();
+}
+
+void Mapper::keep(ScanRecord record) {
+  if (!held_) {
+    scan_file_->append(to_line(record));
+  }
   scans_.push_back(std::move(record));
   path_.add(scans_.back(), keyframes_);
-  return scans_.back();
 }
 
 void Mapper::add_damaged(std::size_t scan, double stamp_s, const std::string& problem) {
+  settle();
   ScanRecord record;
   record.scan = scan;
   record.stamp_s = stamp_s;
@@ -134,6 +118,7 @@ void Mapper::add_damaged(std::size_t scan, double stamp_s, const std::string& pr
 }
 
 void Mapper::close_loops(const std::function<void(std::size_t, std::size_t)>& progress) {
+  end_log();
   if (!registrar_ || !options_.slam.close_loops) {
     return;
   }

@@ -51,16 +51,18 @@ Mapper::Placed Mapper::place(const Scan& scan) {
   if (keyframes_.empty()) {
     placed.state = ScanState::kNewPiece;
   } else if (after_gap(scan.stamp_s)) {
+    settle();  // what is registered to must be there
     // The sensor may have stood still: odometry is believed where registration, which does not know of it, agrees.
     const bool confirmed =
         registrar_ && placed.tracked.health.tracking != Tracking::kLost &&
         registers(*registrar_, folder_, keyframes_, options_.slam,
-                  registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.velocity)),
+                  registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.sweep_velocity)),
                   [&](const Pose& pose, double) { return same_place(pose, placed.tracked.T_map_lidar); });
     if (!confirmed) {
       start_piece(scan, "a gap between the scans", placed);
     }
   } else if (placed.tracked.health.tracking == Tracking::kLost) {
+    settle();
     placed.problem = placed.tracked.health.reason;
     if (recover(scan, placed)) {
       placed.state = ScanState::kRecovered;
@@ -117,7 +119,7 @@ bool Mapper::recover(const Scan& scan, Placed& placed) const {
   const bool only_one = keyframes_.size() < 2 || keyframes_[keyframes_.size() - 2].piece != piece_ ||
                         options_.slam.recovery_keyframes < 2;
   std::vector<Pose> answers;
-  const std::string source = registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.velocity));
+  const std::string source = registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.sweep_velocity));
   return registers(*registrar_, folder_, keyframes_, options_.slam, source, [&](const Pose& pose, double p_correct) {
     const bool agrees =
         std::any_of(answers.begin(), answers.end(), [&](const Pose& other) { return same_place(pose, other); });

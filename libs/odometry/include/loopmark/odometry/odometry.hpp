@@ -21,8 +21,9 @@ namespace loopmark {
 struct TrackedScan {
   std::size_t index = 0;
   double stamp_s = 0.0;
-  Pose T_map_lidar = Pose::Identity();   ///< at the scan's stamp
-  Vector6d velocity = Vector6d::Zero();  ///< in the lidar's frame, a second; what the scan was deskewed with
+  Pose T_map_lidar = Pose::Identity();         ///< at the scan's stamp
+  Vector6d velocity = Vector6d::Zero();        ///< mean since the last scan, in the lidar's frame, a second
+  Vector6d sweep_velocity = Vector6d::Zero();  ///< during the sweep: what the scan was deskewed with
   Health health;
   PointCloud sample;  ///< its points, thinned, as seen (not deskewed), with times where known
 };
@@ -41,6 +42,10 @@ class Odometry {
 
   /// The same from a pose that is known roughly instead of predicted.
   TrackedScan track_from(const Scan& scan, const Pose& T_map_lidar) const;
+
+  /// How the sensor moved during the sweep of the last scan that was committed, now that `next` has a pose: between the
+  /// mean velocities before and behind it. In the lidar's frame, a second.
+  Vector6d sweep_of_last(const TrackedScan& next) const;
 
   /// Takes the scan into the local map and the motion model.
   void commit(const TrackedScan& tracked);
@@ -76,6 +81,7 @@ class Odometry {
   std::vector<Eigen::Vector3f> deskewed_sample(const TrackedScan& tracked) const;
   std::vector<Eigen::Vector3d> in_map(const TrackedScan& tracked) const;
   double gap_to(double stamp_s) const;
+  Vector6d during_sweep(const TrackedScan& tracked) const;
   double threshold(double gap_s) const;
   bool careful(double stamp_s) const;
   std::vector<Start> straight_starts(const TrackedScan& prepared) const;

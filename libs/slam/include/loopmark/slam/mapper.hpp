@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ class Mapper {
   /// Throws DamagedScan when it holds too few points to be used.
   const ScanRecord& add(const Scan& scan);
 
+  /// The log is over: the last keyframe does not wait for another scan.
+  void end_log() { settle(); }
+
   /// A scan that cannot be used. Throws InputError when there have been more than max_bad_scans.
   void add_damaged(std::size_t scan, double stamp_s, const std::string& problem);
 
@@ -59,8 +63,10 @@ class Mapper {
   Placed place(const Scan& scan);
   bool recover(const Scan& scan, Placed& placed) const;
   bool deserves_keyframe(const TrackedScan& tracked, ScanState state) const;
-  void keep_keyframe(const Scan& scan, ScanRecord& record);
-  const ScanRecord& keep(ScanRecord record);
+  void write_keyframe(const Scan& scan, const ScanRecord& record) const;
+  void settle();
+  void settle(const Vector6d& velocity);
+  void keep(ScanRecord record);
   bool after_gap(double stamp_s) const;
   void start_piece(const Scan& scan, const std::string& problem, Placed& placed);
 
@@ -71,6 +77,7 @@ class Mapper {
   std::size_t piece_ = 0;
   std::size_t bad_scans_ = 0;
   std::vector<ScanRecord> scans_;
+  std::optional<Scan> held_;  ///< the last of scans_, a keyframe that waits for the next scan
   std::vector<Keyframe> keyframes_;
   DrivenPath path_;
   std::vector<LoopRecord> loops_;

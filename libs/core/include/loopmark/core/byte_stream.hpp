@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Plain memory to bytes and back, for states that this very program reads again.
+/// Plain memory to bytes and back, for states that this very program reads again. Reading throws InputError where the
+/// bytes end early.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstring>
 #include <string>
 #include <type_traits>
@@ -27,6 +29,12 @@ class ByteWriter {
   void vector(const std::vector<T>& values) {
     value(values.size());
     raw(values.data(), values.size());
+  }
+  void points(const std::vector<Eigen::Vector3f>& points) {
+    value(points.size());
+    for (const Eigen::Vector3f& point : points) {
+      raw(point.data(), 3);
+    }
   }
   void text(const std::string& text) {
     value(text.size());
@@ -64,6 +72,13 @@ class ByteReader {
     }
     std::vector<T> result(count);
     raw(result.data(), count);
+    return result;
+  }
+  std::vector<Eigen::Vector3f> points() {
+    std::vector<Eigen::Vector3f> result;
+    for (auto left = value<std::size_t>(); left > 0; --left) {
+      raw(result.emplace_back().data(), 3);
+    }
     return result;
   }
   std::string text() {
