@@ -32,17 +32,19 @@ struct NormalEquations {
   }
 };
 
-/// Adds one patch: r = q - p, weight matrix W = a diag(1, 1, u) + (1 - a) planarity n n^T, Jacobian [-I, hat(p)].
-void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Patch& target, double scale_m) {
+/// Adds one pair: p of the source (moved), q of the target, and the one of both that is the surface, with its normal in
+/// the target's frame. r = q - p, weight matrix W = a diag(1, 1, u) + (1 - a) planarity n n^T, Jacobian [-I, hat(p)].
+void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Eigen::Vector3f& q, const Patch& surface,
+              const Eigen::Vector3f& normal, double scale_m) {
   const Eigen::Vector3d point = p.cast<double>();
-  const Eigen::Vector3d n = target.normal.cast<double>();
-  const Eigen::Vector3d r = target.mean.cast<double>() - point;
-  const double blob = 1.0 - target.planarity;
+  const Eigen::Vector3d n = normal.cast<double>();
+  const Eigen::Vector3d r = q.cast<double>() - point;
+  const double blob = 1.0 - surface.planarity;
   // Ground would only brake: the nearest patch of a plane is near wherever one stands.
-  const double across = target.height < kGroundHeight ? 0.0 : kAcross + (1.0 - kAcross) * blob * blob * 0.5;
+  const double across = surface.height < kGroundHeight ? 0.0 : kAcross + (1.0 - kAcross) * blob * blob * 0.5;
   // A lone ring on a wall is a line: its normal is anyone's guess, and its height is the sensor's, not the wall's.
   const Eigen::Matrix3d w = across * Eigen::Vector3d(1.0, 1.0, kUpright).asDiagonal().toDenseMatrix() +
-                            (1.0 - across) * static_cast<double>(target.planarity) * n * n.transpose();
+                            (1.0 - across) * static_cast<double>(surface.planarity) * n * n.transpose();
   const Eigen::Vector3d wr = w * r;
   const double squared = r.dot(wr);
   const double ratio = 1.0 / (1.0 + squared / (scale_m * scale_m));
@@ -59,35 +61,52 @@ void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Patch& targe
   ++sum.used;
 }
 
-/// The terms of all patches that have a partner within reach, summed block by block: the same at any thread count.
-NormalEquations equations(const std::vector<Patch>& source, const PatchMap& target, const Eigen::Isometry3f& T,
-                          float reach_m, double scale_m) {
+/// The terms of patches 0 to `count` - 1, summed block by block: the same at any thread count. `add` adds those of one.
+template <class Add>
+NormalEquations sum_of_terms(std::size_t count, const Add& add) {
   constexpr std::size_t kBlock = 2048;
   const auto of_block = [&](std::size_t begin, std::size_t end) {
     NormalEquations sum;
     for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3f p = T * source[i].mean;
-      if (const Patch* partner = target.nearest(p, reach_m)) {
-        add_term(sum, p, *partner, scale_m);
-      }
+      add(i, sum);
     }
     return sum;
   };
   NormalEquations all =
-      parallel_reduce_ordered(source.size(), kBlock, NormalEquations{}, of_block,
+      parallel_reduce_ordered(count, kBlock, NormalEquations{}, of_block,
                               [](NormalEquations& total, const NormalEquations& part) { total += part; });
   all.h.bottomLeftCorner<3, 3>() = all.h.topRightCorner<3, 3>().transpose();
   return all;
 }
 
-}  // namespace
+/// Of the source's patches that have a partner within reach in the target.
+NormalEquations equations(const std::vector<Patch>& source, const PatchMap& target, const Eigen::Isometry3f& T,
+                          float reach_m, double scale_m) {
+  return sum_of_terms(source.size(), [&](std::size_t i, NormalEquations& sum) {
+    const Eigen::Vector3f p = T * source[i].mean;
+    if (const Patch* partner = target.nearest(p, reach_m)) {
+      add_term(sum, p, partner->mean, *partner, partner->normal, scale_m);
+    }
+  });
+}
 
-Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target, const Pose& start, float reach_m,
-                        double scale_m, int iterations) {
+/// Of the target's patches that have a partner within reach in the source.
+NormalEquations equations_back(const PatchMap& source, const std::vector<Patch>& target, const Eigen::Isometry3f& T,
+                               float reach_m, double scale_m) {
+  const Eigen::Isometry3f back = T.inverse();
+  return sum_of_terms(target.size(), [&](std::size_t i, NormalEquations& sum) {
+    if (const Patch* partner = source.nearest(back * target[i].mean, reach_m)) {
+      add_term(sum, T * partner->mean, target[i].mean, *partner, T.linear() * partner->normal, scale_m);
+    }
+  });
+}
+
+template <class Equations>
+Alignment solve(const Equations& equations_at, const Pose& start, int iterations) {
   Alignment result;
   result.T_target_source = start;
   for (int iteration = 0; iteration < iterations; ++iteration) {
-    const NormalEquations sum = equations(source, target, result.T_target_source.cast<float>(), reach_m, scale_m);
+    const NormalEquations sum = equations_at(result.T_target_source.cast<float>());
     result.used = sum.used;
     result.information = sum.h;
     result.residual_m = sum.weights > 0.0 ? std::sqrt(sum.squares / sum.weights) : 0.0;
@@ -102,6 +121,25 @@ Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target
     }
   }
   return result;
+}
+
+}  // namespace
+
+Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target, const Pose& start, float reach_m,
+                        double scale_m, int iterations) {
+  return solve([&](const Eigen::Isometry3f& T) { return equations(source, target, T, reach_m, scale_m); }, start,
+               iterations);
+}
+
+Alignment align_both_ways(const PatchMap& source, const PatchMap& target, const Pose& start, float reach_m,
+                          double scale_m, int iterations) {
+  return solve(
+      [&](const Eigen::Isometry3f& T) {
+        NormalEquations sum = equations(source.patches(), target, T, reach_m, scale_m);
+        sum += equations_back(source, target.patches(), T, reach_m, scale_m);
+        return sum;
+      },
+      start, iterations);
 }
 
 namespace {

@@ -19,6 +19,11 @@ struct Alignment {
 Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target, const Pose& start, float reach_m,
                         double scale_m, int iterations);
 
+/// The same with all patches of both scans, each on the nearest of the other: which of the two is the source makes no
+/// difference to what is minimised.
+Alignment align_both_ways(const PatchMap& source, const PatchMap& target, const Pose& start, float reach_m,
+                          double scale_m, int iterations);
+
 /// `count` patches at even steps through the scan, half of them structure where there is enough of it.
 std::vector<Patch> sampled(const std::vector<Patch>& patches, std::size_t count);
 

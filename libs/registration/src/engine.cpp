@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kRoughPatches = 250;
 constexpr double kResidualSigma = 0.05;  // metres; of one patch, for the covariance
-constexpr double kDependence = 20.0;     // patches that say the same thing: neighbours are not independent
+constexpr double kDependence = 40.0;     // patches that say the same thing: neighbours do, and the two ways round
 
 constexpr const char* kLandmarks = "landmarks";
 constexpr std::size_t kOwnFinalists = 3;
@@ -185,11 +185,12 @@ RegistrationResult decide(std::vector<Candidate> candidates, const PreparedScan:
   candidates = examiner.examine(std::move(candidates));
   candidates = examiner.settled_anew(std::move(candidates));
   candidates = examiner.nodded(std::move(candidates));
+  candidates = examiner.turned_about(std::move(candidates));
   timings.push_back({"refine and verify", watch.seconds()});
   watch.reset();
   if (!candidates.empty()) {
     Candidate& best = candidates.front();
-    best.alignment = align_patches(source.fine.patches(), target.fine, best.alignment.T_target_source, 0.4F, 0.2, 6);
+    best.alignment = align_both_ways(source.fine, target.fine, best.alignment.T_target_source, 0.4F, 0.2, 6);
     examiner.judge(best);
   }
   RegistrationResult result = conclude(candidates, source, target, options);

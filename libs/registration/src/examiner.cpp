@@ -38,10 +38,16 @@ std::vector<Candidate> distinct(std::vector<Candidate> candidates) {
   return kept;
 }
 
+Pose planar(const Pose& T) {
+  const double yaw = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
+  return pose_from_yaw(yaw, {T.translation().x(), T.translation().y(), 0.0});
+}
+
 }  // namespace
 
 Examiner::Examiner(const PreparedScan::Data& source, const PreparedScan::Data& target, const Effort& effort)
-    : target_(target),
+    : source_(source),
+      target_(target),
       effort_(effort),
       coarse_(sampled(source.fine.patches(), effort.coarse_patches)),
       fine_(sampled(source.fine.patches(), effort.fine_patches)),
@@ -58,8 +64,7 @@ std::vector<Candidate> Examiner::settled_anew(std::vector<Candidate> candidates)
   std::vector<Candidate> anew = candidates;
   parallel_for(anew.size(), [&](std::size_t i) {
     Pose& T = anew[i].alignment.T_target_source;
-    const double yaw = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
-    T = settled(pose_from_yaw(yaw, {T.translation().x(), T.translation().y(), 0.0}), ground_, target_.ground);
+    T = settled(planar(T), ground_, target_.ground);
     anew[i] = examined(anew[i], 0);
   });
   candidates.insert(candidates.end(), anew.begin(), anew.end());
@@ -80,6 +85,22 @@ std::vector<Candidate> Examiner::nodded(std::vector<Candidate> candidates) const
     anew[i] = examined(anew[i], 0);
   });
   candidates.insert(candidates.end(), anew.begin(), anew.end());
+  return distinct(std::move(candidates));
+}
+
+std::vector<Candidate> Examiner::turned_about(std::vector<Candidate> candidates) const {
+  if (candidates.empty() || candidates.front().alignment.T_target_source.translation().norm() < kNodsFrom) {
+    return candidates;
+  }
+  Candidate anew = candidates.front();
+  Pose& T = anew.alignment.T_target_source;
+  const std::vector<Patch> ground = sampled_ground(target_.fine.patches(), kGroundPatches);
+  const std::vector<Patch> fine = sampled(target_.fine.patches(), effort_.fine_patches);
+  const Pose T_source_target = settled(planar(T).inverse(), ground, source_.ground);
+  anew.alignment = align_patches(fine, source_.fine, T_source_target, 0.4F, 0.3, effort_.fine_rounds);
+  T = T.inverse();
+  judge(anew);
+  candidates.push_back(anew);
   return distinct(std::move(candidates));
 }
 

@@ -50,12 +50,18 @@ class Examiner {
   /// ring too high as well.
   std::vector<Candidate> nodded(std::vector<Candidate> candidates) const;
 
+  /// Lays the best candidate on the ground and aligns it the other way round, the target's patches on the source's
+  /// surfaces; both are kept to choose from. Of sparse sensors far apart, either scan holds the tilt badly on the
+  /// other's few rings, and errs in its own way.
+  std::vector<Candidate> turned_about(std::vector<Candidate> candidates) const;
+
   /// What the scans say of a candidate's motion, and its log-odds.
   void judge(Candidate& candidate) const;
 
  private:
   Candidate examined(Candidate candidate, int coarse_rounds) const;
 
+  const PreparedScan::Data& source_;
   const PreparedScan::Data& target_;
   Effort effort_;
   std::vector<Patch> coarse_;
