@@ -11,9 +11,7 @@ namespace {
 constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
 constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
 constexpr double kElsewhereDeg = 20.0;
-constexpr double kClearLead = 3.0;     ///< in log-odds, over another place
-constexpr double kUnconfirmed = -5.0;  ///< log-odds that stand for a scan that does not confirm a place
-constexpr double kForgotten = -4.0;    ///< log-odds below which a place is dropped
+constexpr double kForgotten = -4.0;  ///< log-odds below which a place is dropped
 
 }  // namespace
 
@@ -74,7 +72,7 @@ void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_od
   for (std::size_t place = 0; place < known; ++place) {
     if (!confirmed[place]) {
       beliefs_[place].log_odds += std::log(options_.miss_odds);
-      beliefs_[place].latest = kUnconfirmed;
+      beliefs_[place].latest = kNotThere;
     }
   }
   normalise();

@@ -12,6 +12,9 @@
 
 namespace loopmark {
 
+constexpr double kClearLead = 3.0;  ///< in log-odds: by so much a place must lead every other one
+constexpr double kNotThere = -5.0;  ///< log-odds that stand for a place of which a scan says nothing
+
 /// One answer of the registration of a scan to the map.
 struct PlaceAnswer {
   Pose T_map_lidar = Pose::Identity();
