@@ -58,8 +58,9 @@ std::vector<Pose> Relocalizer::State::believed(const Pose& T_odometry_lidar) con
   return poses;
 }
 
-bool Relocalizer::State::doubtful(double share, const PoseError& jump) const {
-  return share < options.doubt_share * usual_share || gap_s > kGapS || jump.translation_m > kDisagreementM;
+bool Relocalizer::State::doubtful(const Followed& followed) const {
+  return followed.health.inlier_share < options.doubt_share * usual_share || gap_s > kGapS ||
+         followed.jump.translation_m > kDisagreementM;
 }
 
 bool Relocalizer::State::is_due(const std::optional<Pose>& last, const TrackedScan& tracked, double after_m) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,17 @@ namespace loopmark {
 constexpr double kGapS = 0.3;           ///< a longer gap between two scans is a reason to verify
 constexpr double kMostLogOdds = 9.0;    ///< of a place, however many scans agree
 constexpr double kDisagreementM = 0.3;  ///< between map and own motion in one scan, or nearest points and registration
+
+/// A scan while the place is known.
+struct Followed {
+  Pose predicted = Pose::Identity();    ///< T_map_lidar by own motion
+  Pose T_map_lidar = Pose::Identity();  ///< where it fits
+  PoseError jump;                       ///< between the two as nearest points have it
+  Health health;
+  bool fits = false;       ///< a pose can be given
+  bool elsewhere = false;  ///< it is clear that the sensor is at another place
+  std::string reason;      ///< why there is no pose, or why the place is given up
+};
 
 /// What a relocalizer remembers from scan to scan.
 struct Relocalizer::State {
@@ -61,6 +73,8 @@ struct Relocalizer::State {
   std::optional<SweepInMap> sweep_in_map(const TrackedScan& tracked, const Pose& near);
   /// Own motion begins anew at this scan, which moves so: the next one is expected where that leads.
   void begin_own_motion(const TrackedScan& tracked, const Vector6d& velocity);
+  Followed followed(const PointCloud& cloud, const Pose& predicted);
+  void remember(const TrackedScan& tracked, Followed& followed);
   TrackedScan next_pose(const Scan& scan);
   void renew_surroundings(const Eigen::Vector3d& position);
   /// Own motion that leads elsewhere than the map, which registration was asked about, begins anew with the map's
@@ -70,7 +84,7 @@ struct Relocalizer::State {
   std::vector<Pose> in_question(const TrackedScan& tracked, const Pose& T_map_lidar) const;
   /// Whether own motion may not have led here: fewer keypoints fit than usual, scans are missing, or map and own motion
   /// disagree.
-  bool doubtful(double share, const PoseError& jump) const;
+  bool doubtful(const Followed& followed) const;
   /// Whether so much has been driven since `last`, or there was none.
   static bool is_due(const std::optional<Pose>& last, const TrackedScan& tracked, double after_m);
   double compare_after_m() const { return outdone ? options.verify_every_m : options.compare_every_m; }

@@ -36,53 +36,68 @@ void Relocalizer::begin_tracking(const Pose& T_map_odometry, const Pose& T_odome
 /// `just_found`: this scan itself was searched, and the place is what came of it.
 void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, bool just_found, RelocalizedScan& answer) {
   State& s = *state_;
-  const Pose predicted = s.T_map_odometry * tracked.T_map_lidar;
   const PointCloud cloud = s.odometry.deskewed_cloud(scan, tracked.velocity);
-  const Alignment found = s.align_to_map(cloud, predicted);
-  const PoseError jump = pose_error(found.T_map_lidar, predicted);
-  const double share = found.health.inlier_share;
-  bool fits = share >= s.options.min_inlier_share && jump.translation_m <= s.options.max_jump_m &&
-              jump.rotation_deg <= s.options.same_place_deg;
-  s.in_doubt = s.in_doubt || (!just_found && s.doubtful(share, jump));
-  Pose T_map_lidar = found.T_map_lidar;
-  bool elsewhere = false;
-  if (fits && just_found) {
-    const bool apart = jump.translation_m > kDisagreementM;
-    T_map_lidar = apart ? verified(cloud, tracked, found.T_map_lidar) : found.T_map_lidar;
-    fits = !apart || s.verdict >= 0.0;
-  } else if (fits && (s.in_doubt || s.is_due(s.compared_at, tracked, s.compare_after_m()))) {
-    const PlaceComparison said = compared(cloud, tracked, T_map_lidar);
-    fits = !s.in_doubt;
-    elsewhere = s.in_doubt && said.verdict == PlaceComparison::Verdict::kElsewhere;
-  } else if (fits && s.is_due(s.verified_at, tracked, s.options.verify_every_m)) {
-    T_map_lidar = verified(cloud, tracked, found.T_map_lidar);
+  Followed followed = s.followed(cloud, s.T_map_odometry * tracked.T_map_lidar);
+  s.in_doubt = s.in_doubt || (!just_found && s.doubtful(followed));
+  if (followed.fits) {
+    examine(cloud, tracked, just_found, followed);
   }
-  answer.inlier_share = share;
-  if (fits) {
-    s.misfits = 0;
-    s.usual_share = s.usual_share == 0.0 ? share : kUsualMemory * s.usual_share + (1.0 - kUsualMemory) * share;
-    s.T_map_odometry = T_map_lidar * tracked.T_map_lidar.inverse();
-    s.mend_own_motion(tracked, T_map_lidar, predicted);
-  } else {
-    T_map_lidar = predicted;
-    s.last_in_map.reset();
-    ++s.misfits;
-    s.log_odds -= kMisfitOdds;
-  }
+  s.remember(tracked, followed);
+  answer.inlier_share = followed.health.inlier_share;
   answer.p_correct = probability(s.log_odds);
-  if (elsewhere || s.misfits >= s.options.lost_after || answer.p_correct < s.options.min_p_correct) {
-    lose(fits        ? "registration says that this is another place"
-         : elsewhere ? "it looks like another place of the map"
-                     : "scans no longer fit the map",
-         answer);
+  if (followed.elsewhere || s.misfits >= s.options.lost_after || answer.p_correct < s.options.min_p_correct) {
+    lose(followed.reason, answer);
     return;
   }
   answer.state = RelocalizationState::kTracking;
-  answer.answered = fits;
-  answer.reason = fits ? answer.reason : "the scan does not fit the map";
-  answer.T_map_lidar = T_map_lidar;
+  answer.answered = followed.fits;
+  answer.reason = followed.fits ? answer.reason : followed.reason;
+  answer.T_map_lidar = followed.T_map_lidar;
   const Matrix6d to_map = adjoint(answer.T_map_lidar);
-  answer.covariance = to_map * found.health.covariance * to_map.transpose();
+  answer.covariance = to_map * followed.health.covariance * to_map.transpose();
+}
+
+Followed Relocalizer::State::followed(const PointCloud& cloud, const Pose& predicted) {
+  const Alignment found = align_to_map(cloud, predicted);
+  Followed result{predicted, found.T_map_lidar, pose_error(found.T_map_lidar, predicted), found.health};
+  result.fits = found.health.inlier_share >= options.min_inlier_share &&
+                result.jump.translation_m <= options.max_jump_m && result.jump.rotation_deg <= options.same_place_deg;
+  result.reason = result.fits ? "registration says that this is another place" : "the scan does not fit the map";
+  return result;
+}
+
+/// Asks registration about a scan that fits: the whole map in doubt and now and then, else the place alone.
+void Relocalizer::examine(const PointCloud& cloud, const TrackedScan& tracked, bool just_found, Followed& followed) {
+  State& s = *state_;
+  const bool apart = followed.jump.translation_m > kDisagreementM;
+  if (just_found) {
+    if (apart) {
+      followed.T_map_lidar = verified(cloud, tracked, followed.T_map_lidar);
+      followed.fits = s.verdict >= 0.0;
+    }
+  } else if (s.in_doubt || s.is_due(s.compared_at, tracked, s.compare_after_m())) {
+    const PlaceComparison said = compared(cloud, tracked, followed.T_map_lidar);
+    followed.fits = !s.in_doubt;
+    followed.elsewhere = s.in_doubt && said.verdict == PlaceComparison::Verdict::kElsewhere;
+    followed.reason = "other places of the map look like this";
+  } else if (s.is_due(s.verified_at, tracked, s.options.verify_every_m)) {
+    followed.T_map_lidar = verified(cloud, tracked, followed.T_map_lidar);
+  }
+}
+
+void Relocalizer::State::remember(const TrackedScan& tracked, Followed& followed) {
+  if (!followed.fits) {
+    followed.T_map_lidar = followed.predicted;
+    last_in_map.reset();
+    ++misfits;
+    log_odds -= kMisfitOdds;
+    return;
+  }
+  const double share = followed.health.inlier_share;
+  misfits = 0;
+  usual_share = usual_share == 0.0 ? share : kUsualMemory * usual_share + (1.0 - kUsualMemory) * share;
+  T_map_odometry = followed.T_map_lidar * tracked.T_map_lidar.inverse();
+  mend_own_motion(tracked, followed.T_map_lidar, followed.predicted);
 }
 
 /// The poses between which registration has to choose: where own motion leads elsewhere than nearest points do (walls

@@ -13,6 +13,7 @@
 
 namespace loopmark {
 
+struct Followed;
 struct PlaceComparison;
 
 /// The map as a relocalizer sees it. Calls may come from several threads; answers must not depend on what was asked
@@ -80,6 +81,7 @@ class Relocalizer {
   void judge_again(const PointCloud& cloud, const Pose& best, std::vector<PlaceAnswer>& answers) const;
   void begin_tracking(const Pose& T_map_odometry, const Pose& T_odometry_lidar, double log_odds);
   void track(const Scan& scan, const TrackedScan& tracked, bool just_found, RelocalizedScan& answer);
+  void examine(const PointCloud& cloud, const TrackedScan& tracked, bool just_found, Followed& followed);
   Pose verified(const PointCloud& cloud, const TrackedScan& tracked, const Pose& T_map_lidar);
   PlaceComparison compared(const PointCloud& cloud, const TrackedScan& tracked, Pose& T_map_lidar);
   Pose settled(const TrackedScan& tracked, const Pose& T_map_lidar, const Pose& better);
