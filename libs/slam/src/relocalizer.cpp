@@ -41,12 +41,13 @@ RelocalizedScan Relocalizer::add(const Scan& scan) {
     answer.reason = "the scan has too few points";
     return answer;
   }
-  if (s.told) {
+  const bool told = s.told.has_value();
+  if (told) {
     begin_tracking(*s.told * tracked.T_map_lidar.inverse(), tracked.T_map_lidar, kToldLogOdds);
     s.told.reset();
   }
   if (s.tracking) {
-    track(scan, tracked, false, answer);
+    track(scan, tracked, told, answer);
   }
   if (!s.tracking) {
     search(scan, tracked, answer);

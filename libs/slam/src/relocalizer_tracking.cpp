@@ -33,7 +33,8 @@ void Relocalizer::begin_tracking(const Pose& T_map_odometry, const Pose& T_odome
 }
 
 /// Aligns the scan to the map from where the own motion predicts it, and has registration judge the pose now and then.
-/// `just_found`: this scan itself was searched, and the place is what came of it.
+/// `just_found`: the place is what came of a search of this scan, or was told with it; own motion does not speak for it
+/// yet.
 void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, bool just_found, RelocalizedScan& answer) {
   State& s = *state_;
   const PointCloud cloud = s.odometry.deskewed_cloud(scan, tracked.velocity);
@@ -59,7 +60,11 @@ void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, bool just_
 
 Followed Relocalizer::State::followed(const PointCloud& cloud, const Pose& predicted) {
   const Alignment found = align_to_map(cloud, predicted);
-  Followed result{predicted, found.T_map_lidar, pose_error(found.T_map_lidar, predicted), found.health};
+  Followed result;
+  result.predicted = predicted;
+  result.T_map_lidar = found.T_map_lidar;
+  result.jump = pose_error(found.T_map_lidar, predicted);
+  result.health = found.health;
   result.fits = found.health.inlier_share >= options.min_inlier_share &&
                 result.jump.translation_m <= options.max_jump_m && result.jump.rotation_deg <= options.same_place_deg;
   result.reason = result.fits ? "registration says that this is another place" : "the scan does not fit the map";
@@ -71,9 +76,9 @@ void Relocalizer::examine(const PointCloud& cloud, const TrackedScan& tracked, b
   State& s = *state_;
   const bool apart = followed.jump.translation_m > kDisagreementM;
   if (just_found) {
-    if (apart) {
+    if (apart || !s.verified_at) {
       followed.T_map_lidar = verified(cloud, tracked, followed.T_map_lidar);
-      followed.fits = s.verdict >= 0.0;
+      followed.fits = !apart || s.verdict >= 0.0;
     }
   } else if (s.in_doubt || s.is_due(s.compared_at, tracked, s.compare_after_m())) {
     const PlaceComparison said = compared(cloud, tracked, followed.T_map_lidar);
