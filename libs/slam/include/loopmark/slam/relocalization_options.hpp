@@ -26,7 +26,7 @@ struct RelocalizationOptions {
   double max_jump_m = 1.5;         ///< disagreement of map and odometry in one scan, beyond it a scan does not fit
   double verify_every_m = 5.0;     ///< while tracking, registration judges the pose after this distance
   double compare_every_m = 50.0;   ///< and the whole map is asked about the scan after this one,
-  double doubt_share = 0.85;       ///< and when fewer than this share of the usual keypoints fit the map
+  double doubt_share = 0.8;        ///< and when fewer than this share of the usual keypoints fit the map
   double max_gap_s = 2.0;          ///< without a scan for longer, the place is lost
 };
 
