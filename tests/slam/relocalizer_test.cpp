@@ -237,12 +237,21 @@ class AlikeStretchesTest : public ::testing::Test {
   }
 
   /// The sensor is at `truth`; the whole map says by log-odds how well `here` and the stretch behind fit.
-  RelocalizedScan drive_to(double truth, double here, double log_odds_here, double log_odds_behind) {
+  RelocalizedScan drive_to(double truth, double here, double log_odds_here, double log_odds_behind,
+                           bool parked = false) {
     map_->answers = {{at(here), Matrix6d::Identity(), log_odds_here},
                      {at(here + kPeriod), Matrix6d::Identity(), log_odds_behind}};
     std::stable_sort(map_->answers.begin(), map_->answers.end(),
                      [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });
-    return relocalizer_.add(street_.seen_from(at(truth), next_++));
+    Scan scan = street_.seen_from(at(truth), next_++);
+    for (double x = -40.0; parked && x < 40.0; x += 0.4) {  // lorries that are not in the map, along both sides
+      for (double z = -0.6; z < 3.0; z += 0.4) {
+        for (const double y : {-3.0, -1.5, 1.5, 3.0}) {
+          scan.cloud.points.push_back(Eigen::Vector3d(x, y, z).cast<float>());
+        }
+      }
+    }
+    return relocalizer_.add(scan);
   }
 
   static Pose at(double x) { return pose_from_yaw(0.0, {x, 0.0, 0.0}); }
@@ -269,6 +278,25 @@ TEST_F(AlikeStretchesTest, AfterAGapAnotherStretchThatFitsClearlyBetterIsTaken) 
   ASSERT_TRUE(answer.answered) << answer.reason;
   EXPECT_LT(pose_error(answer.T_map_lidar, at(30.0 + kPeriod)).translation_m, 0.15);
   EXPECT_EQ(map_->searches, 1) << "what the map said is not asked twice";
+}
+
+TEST_F(AlikeStretchesTest, AScanOfWhichFewerPointsFitThanUsualIsSearchedThoughNothingElseTellsOfAJump) {
+  follow();
+  const RelocalizedScan answer = drive_to(25.0 + kPeriod, 25.0, 1.1, 6.0, true);
+  EXPECT_EQ(map_->searches, 1);
+  EXPECT_TRUE(answer.given_up);
+  ASSERT_TRUE(answer.answered) << answer.reason;
+  EXPECT_LT(pose_error(answer.T_map_lidar, at(25.0 + kPeriod)).translation_m, 0.15);
+}
+
+TEST_F(AlikeStretchesTest, FewerPointsThatFitAreUsualFromThenOnWhereThePlaceHolds) {
+  follow();
+  for (double x = 25.0; x < 29.0; x += 1.0) {
+    const RelocalizedScan answer = drive_to(x, x, 4.0, 1.0, true);
+    EXPECT_TRUE(answer.answered) << answer.reason;
+    EXPECT_FALSE(answer.given_up);
+  }
+  EXPECT_EQ(map_->searches, 1);
 }
 
 TEST_F(AlikeStretchesTest, AfterAGapNoPoseIsGivenWhileAnotherStretchFitsBetter) {
