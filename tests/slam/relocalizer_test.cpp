@@ -118,7 +118,7 @@ TEST_F(RelocalizerTest, FindsThePlaceThenTracksWithoutSearching) {
   EXPECT_EQ(answer.state, RelocalizationState::kTracking);
   EXPECT_TRUE(answer.answered);
   EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15);
-  for (double x = 1.0; x < 60.0; x += 1.0) {
+  for (double x = 1.0; x < 45.0; x += 1.0) {
     answer = drive_to(x, 0.0);
     ASSERT_EQ(answer.state, RelocalizationState::kTracking) << x << ": " << answer.reason;
     EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15) << x;
@@ -219,6 +219,121 @@ TEST_F(RelocalizerTest, NoticesThatItIsLostAndFindsItselfAgain) {
   }
   EXPECT_EQ(answer.state, RelocalizationState::kTracking);
   EXPECT_LT(pose_error(answer.T_map_lidar, truth_).translation_m, 0.15);
+}
+
+/// A street whose houses come again every 60 m: tracking cannot tell one stretch from the next.
+class AlikeStretchesTest : public ::testing::Test {
+ protected:
+  static constexpr double kPeriod = 60.0;
+
+  AlikeStretchesTest() {
+    const std::vector<Eigen::Vector3d> all = street_.points;
+    street_.points.clear();
+    for (const Eigen::Vector3d& p : all) {
+      for (int turn = 0; p.x() >= 0.0 && p.x() < kPeriod && turn < 7; ++turn) {
+        street_.points.emplace_back(p.x() + kPeriod * (turn - 1), p.y(), p.z());
+      }
+    }
+  }
+
+  /// The sensor is at `truth`; the whole map says by log-odds how well `here` and the stretch behind fit.
+  RelocalizedScan drive_to(double truth, double here, double log_odds_here, double log_odds_behind,
+                           bool parked = false) {
+    map_->answers = {{at(here), Matrix6d::Identity(), log_odds_here},
+                     {at(here + kPeriod), Matrix6d::Identity(), log_odds_behind}};
+    std::stable_sort(map_->answers.begin(), map_->answers.end(),
+                     [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });
+    Scan scan = street_.seen_from(at(truth), next_++);
+    for (double x = -40.0; parked && x < 40.0; x += 0.4) {  // lorries that are not in the map, along both sides
+      for (double z = -0.6; z < 3.0; z += 0.4) {
+        for (const double y : {-3.0, -1.5, 1.5, 3.0}) {
+          scan.cloud.points.push_back(Eigen::Vector3d(x, y, z).cast<float>());
+        }
+      }
+    }
+    return relocalizer_.add(scan);
+  }
+
+  static Pose at(double x) { return pose_from_yaw(0.0, {x, 0.0, 0.0}); }
+
+  /// Follows the street from 20 m on, to 24 m.
+  void follow() {
+    relocalizer_.place(at(20.0));
+    for (double x = 20.0; x < 25.0; x += 1.0) {
+      ASSERT_EQ(drive_to(x, x, 4.0, -4.0).state, RelocalizationState::kTracking) << x;
+    }
+  }
+
+  Street street_;
+  std::shared_ptr<TellingMap> map_ = std::make_shared<TellingMap>(street_);
+  Relocalizer relocalizer_{map_, {}};
+  std::size_t next_ = 0;
+};
+
+TEST_F(AlikeStretchesTest, AfterAGapAnotherStretchThatFitsClearlyBetterIsTaken) {
+  follow();
+  next_ += 5;
+  const RelocalizedScan answer = drive_to(30.0 + kPeriod, 30.0, 1.1, 6.0);
+  EXPECT_TRUE(answer.given_up);
+  ASSERT_TRUE(answer.answered) << answer.reason;
+  EXPECT_LT(pose_error(answer.T_map_lidar, at(30.0 + kPeriod)).translation_m, 0.15);
+  EXPECT_EQ(map_->searches, 1) << "what the map said is not asked twice";
+}
+
+TEST_F(AlikeStretchesTest, AScanOfWhichFewerPointsFitThanUsualIsSearchedThoughNothingElseTellsOfAJump) {
+  follow();
+  const RelocalizedScan answer = drive_to(25.0 + kPeriod, 25.0, 1.1, 6.0, true);
+  EXPECT_EQ(map_->searches, 1);
+  EXPECT_TRUE(answer.given_up);
+  ASSERT_TRUE(answer.answered) << answer.reason;
+  EXPECT_LT(pose_error(answer.T_map_lidar, at(25.0 + kPeriod)).translation_m, 0.15);
+}
+
+TEST_F(AlikeStretchesTest, FewerPointsThatFitAreUsualFromThenOnWhereThePlaceHolds) {
+  follow();
+  for (double x = 25.0; x < 29.0; x += 1.0) {
+    const RelocalizedScan answer = drive_to(x, x, 4.0, 1.0, true);
+    EXPECT_TRUE(answer.answered) << answer.reason;
+    EXPECT_FALSE(answer.given_up);
+  }
+  EXPECT_EQ(map_->searches, 1);
+}
+
+TEST_F(AlikeStretchesTest, AfterAGapNoPoseIsGivenWhileAnotherStretchFitsBetter) {
+  follow();
+  next_ += 5;
+  RelocalizedScan answer = drive_to(30.0, 30.0, 3.0, 4.0);
+  EXPECT_FALSE(answer.answered);
+  EXPECT_EQ(answer.state, RelocalizationState::kTracking);
+  EXPECT_FALSE(drive_to(31.0, 31.0, 3.0, 4.0).answered) << "the doubt stays";
+  answer = drive_to(32.0, 32.0, 4.0, 4.0);
+  EXPECT_TRUE(answer.answered) << answer.reason;
+  EXPECT_FALSE(answer.given_up);
+  EXPECT_LT(pose_error(answer.T_map_lidar, at(32.0)).translation_m, 0.15);
+  EXPECT_LT(answer.p_correct, 0.97) << "a tie, with own motion for the one";
+  EXPECT_EQ(map_->searches, 3);
+}
+
+TEST_F(AlikeStretchesTest, AWrongStretchThatIsFollowedIsNoticedBySearchingOnTheWay) {
+  relocalizer_.place(at(20.0));
+  double given_up_at = 0.0;
+  for (double x = 20.0; x < 150.0 && given_up_at == 0.0; x += 1.0) {  // it is one stretch further on
+    given_up_at = drive_to(x + kPeriod, x, 1.0, 6.0).given_up ? x : 0.0;
+  }
+  EXPECT_GE(given_up_at, 70.0);
+  EXPECT_LT(given_up_at, 100.0);
+}
+
+TEST_F(AlikeStretchesTest, NormalDrivingAmongStretchesThatAreAlikeIsNoLoss) {
+  relocalizer_.place(at(20.0));
+  for (double x = 20.0; x < 200.0; x += 1.0) {
+    const bool other_is_better = static_cast<int>(x / 5.0) % 3 == 0;
+    const RelocalizedScan answer = drive_to(x, x, 3.0, other_is_better ? 4.0 : 2.0);
+    ASSERT_TRUE(answer.answered) << x << ": " << answer.reason;
+    EXPECT_LT(pose_error(answer.T_map_lidar, at(x)).translation_m, 0.15);
+  }
+  EXPECT_GE(map_->searches, 3);
+  EXPECT_LE(map_->searches, 10);
 }
 
 TEST_F(RelocalizerTest, AnEmptyScanIsNoAnswer) {

@@ -11,9 +11,8 @@ namespace {
 constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
 constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
 constexpr double kElsewhereDeg = 20.0;
-constexpr double kClearLead = 3.0;     ///< in log-odds, over another place
-constexpr double kUnconfirmed = -5.0;  ///< log-odds that stand for a scan that does not confirm a place
-constexpr double kForgotten = -4.0;    ///< log-odds below which a place is dropped
+constexpr double kNoRival = 2.0 * kClearLead;  ///< a place that lags so far in what all scans say: one may like it
+constexpr double kForgotten = -4.0;            ///< log-odds below which a place is dropped
 
 }  // namespace
 
@@ -74,7 +73,7 @@ void PlaceBeliefs::add(const std::vector<PlaceAnswer>& answers, const Pose& T_od
   for (std::size_t place = 0; place < known; ++place) {
     if (!confirmed[place]) {
       beliefs_[place].log_odds += std::log(options_.miss_odds);
-      beliefs_[place].latest = kUnconfirmed;
+      beliefs_[place].latest = kNotThere;
     }
   }
   normalise();
@@ -109,8 +108,9 @@ bool PlaceBeliefs::decided() const {
   const PlaceBelief& best = beliefs_.front();
   return std::none_of(beliefs_.begin() + 1, beliefs_.end(), [&](const PlaceBelief& other) {
     const bool elsewhere = are_elsewhere(other.T_map_odometry * latest_, best.T_map_odometry * latest_);
-    const double lead = std::min(best.log_odds - other.log_odds, best.latest - other.latest);
-    return best.p < options_.min_lead * other.p || (elsewhere && lead < kClearLead);
+    const double lead = best.log_odds - other.log_odds;
+    const bool clear = lead >= kClearLead && (lead >= kNoRival || best.latest - other.latest >= kClearLead);
+    return best.p < options_.min_lead * other.p || (elsewhere && !clear);
   });
 }
 

@@ -30,6 +30,7 @@ void check(const RelocalizationOptions& o) {
   require_option(o.map_radius_m > 0.0, "map_radius_m", "must be positive");
   require_option(o.lost_after >= 1, "lost_after", "must be at least 1");
   require_option(o.verify_every_m > 0.0, "verify_every_m", "must be positive");
+  require_option(o.compare_every_m > 0.0, "compare_every_m", "must be positive");
   require_option(o.max_gap_s > 0.0, "max_gap_s", "must be positive");
 }
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kBelieved = 4;  ///< places that another scan is asked about, whatever it looks like itself
 constexpr double kNearVoxels = 0.4;   ///< distance to a match while the own motion predicts well
+constexpr double kAsUsual = 0.9;  ///< of the usual share of fitting keypoints: nothing more is to be found farther off
 
 }  // namespace
 
@@ -21,14 +22,28 @@ void Relocalizer::State::renew_surroundings(const Eigen::Vector3d& position) {
   around_at = position;
 }
 
+std::optional<SweepInMap> Relocalizer::State::sweep_in_map(const TrackedScan& tracked, const Pose& near) {
+  const PointCloud& sample = tracked.sample;
+  if (!odometry.deskews() || sample.time_offset_s.size() != sample.size()) {
+    return std::nullopt;
+  }
+  renew_surroundings(near.translation());
+  return align_sweep(sample.points, sample.time_offset_s, *around, near);
+}
+
+void Relocalizer::State::begin_own_motion(const TrackedScan& tracked, const Vector6d& velocity) {
+  TrackedScan moving = tracked;
+  moving.velocity = velocity;
+  odometry.restart(tracked.T_map_lidar);
+  odometry.commit(moving);
+  first_with_motion = std::move(moving);
+  committed = 1;
+}
+
 void Relocalizer::State::mend_own_motion(const TrackedScan& tracked, const Pose& T_map_lidar, const Pose& predicted) {
   const bool wrong = pose_error(T_map_lidar, predicted).translation_m > kDisagreementM;
   if (wrong && last_in_map && gap_s > 0.0 && gap_s <= kGapS) {
-    TrackedScan moving = tracked;
-    moving.velocity = log_se3(last_in_map->inverse() * T_map_lidar) / gap_s;
-    odometry.restart(tracked.T_map_lidar);
-    odometry.commit(moving);
-    committed = 1;
+    begin_own_motion(tracked, log_se3(last_in_map->inverse() * T_map_lidar) / gap_s);
   }
   last_in_map = T_map_lidar;
 }
@@ -43,6 +58,15 @@ std::vector<Pose> Relocalizer::State::believed(const Pose& T_odometry_lidar) con
   return poses;
 }
 
+bool Relocalizer::State::doubtful(const Followed& followed) const {
+  return followed.health.inlier_share < options.doubt_share * usual_share || gap_s > kGapS ||
+         followed.jump.translation_m > kDisagreementM;
+}
+
+bool Relocalizer::State::is_due(const std::optional<Pose>& last, const TrackedScan& tracked, double after_m) {
+  return !last || (last->inverse() * tracked.T_map_lidar).translation().norm() >= after_m;
+}
+
 Alignment Relocalizer::State::align_to_map(const PointCloud& cloud, const Pose& predicted) {
   renew_surroundings(predicted.translation());
   std::vector<Eigen::Vector3f> keypoints;
@@ -50,6 +74,9 @@ Alignment Relocalizer::State::align_to_map(const PointCloud& cloud, const Pose& 
     keypoints.push_back(cloud.points[i]);
   }
   Alignment near = align(keypoints, *around, predicted, kNearVoxels * around->voxel_m(), odometry_options);
+  if (usual_share > 0.0 && near.health.inlier_share >= kAsUsual * usual_share) {
+    return near;
+  }
   Alignment wide = align(keypoints, *around, predicted, around->voxel_m(), odometry_options);
   return wide.health.inlier_share > near.health.inlier_share ? wide : near;
 }

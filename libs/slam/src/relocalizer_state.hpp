@@ -5,16 +5,30 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "loopmark/odometry/alignment.hpp"
 #include "loopmark/slam/relocalizer.hpp"
+#include "sweep_motion.hpp"
 
 namespace loopmark {
 
 constexpr double kGapS = 0.3;           ///< a longer gap between two scans is a reason to verify
+constexpr double kMostLogOdds = 9.0;    ///< of a place, however many scans agree
 constexpr double kDisagreementM = 0.3;  ///< between map and own motion in one scan, or nearest points and registration
+
+/// A scan while the place is known.
+struct Followed {
+  Pose predicted = Pose::Identity();    ///< T_map_lidar by own motion
+  Pose T_map_lidar = Pose::Identity();  ///< where it fits
+  PoseError jump;                       ///< between the two as nearest points have it
+  Health health;
+  bool fits = false;       ///< a pose can be given
+  bool elsewhere = false;  ///< it is clear that the sensor is at another place
+  std::string reason;      ///< why there is no pose, or why the place is given up
+};
 
 /// What a relocalizer remembers from scan to scan.
 struct Relocalizer::State {
@@ -30,6 +44,8 @@ struct Relocalizer::State {
   RelocalizationOptions options;
   OdometryOptions odometry_options;
   Odometry odometry;
+  std::optional<TrackedScan>
+      first_with_motion;      ///< the scan before, if it was the first one and the map told its motion
   std::size_t committed = 0;  ///< scans since the motion began or was lost
   std::optional<double> last_stamp_s;
   double gap_s = 0.0;  ///< before this scan
@@ -46,17 +62,40 @@ struct Relocalizer::State {
   double verdict = 0.0;             ///< log-odds that registration gave the scan that was verified last
   std::optional<Pose> last_in_map;  ///< T_map_lidar of the scan before, where it fitted
   std::optional<Pose> verified_at;  ///< T_odometry_lidar of the scan that was verified last
-  std::optional<LocalMap> around;   ///< the map around the sensor
+  std::optional<Pose> compared_at;  ///< and of the one that was compared with the whole map
+  bool in_doubt = false;            ///< the sensor may have been carried off, until the whole map has been asked
+  bool outdone = false;             ///< another place fitted the scan better that was compared last
+  std::optional<std::vector<PlaceAnswer>> searched;  ///< what the whole map said of this scan, if it was asked
+  std::optional<LocalMap> around;                    ///< the map around the sensor
   Eigen::Vector3d around_at = Eigen::Vector3d::Zero();
 
+  /// Pose and motion of a raw scan in the map, from a pose near; nothing where they cannot be told.
+  std::optional<SweepInMap> sweep_in_map(const TrackedScan& tracked, const Pose& near);
+  /// Own motion begins anew at this scan, which moves so: the next one is expected where that leads.
+  void begin_own_motion(const TrackedScan& tracked, const Vector6d& velocity);
+  Followed followed(const PointCloud& cloud, const Pose& predicted);
+  void remember(const TrackedScan& tracked, Followed& followed);
+  TrackedScan next_pose(const Scan& scan);
   void renew_surroundings(const Eigen::Vector3d& position);
   /// Own motion that leads elsewhere than the map, which registration was asked about, begins anew with the map's
   /// motion: along smooth walls a sensor may seem to stand still.
   void mend_own_motion(const TrackedScan& tracked, const Pose& T_map_lidar, const Pose& predicted);
   std::vector<Pose> believed(const Pose& T_odometry_lidar) const;
-  /// With near matches only and with far ones, whichever holds more keypoints: walls may draw a scan along, and the own
-  /// motion may be wrong.
+  std::vector<Pose> in_question(const TrackedScan& tracked, const Pose& T_map_lidar) const;
+  /// Whether own motion may not have led here: fewer keypoints fit than usual, scans are missing, or map and own motion
+  /// disagree.
+  bool doubtful(const Followed& followed) const;
+  /// Whether so much has been driven since `last`, or there was none.
+  static bool is_due(const std::optional<Pose>& last, const TrackedScan& tracked, double after_m);
+  double compare_after_m() const { return outdone ? options.verify_every_m : options.compare_every_m; }
+  /// With near matches only, and where fewer of them hold than usual, with far ones too, whichever holds more
+  /// keypoints: walls may draw a scan along, and the own motion may be wrong.
   Alignment align_to_map(const PointCloud& cloud, const Pose& predicted);
 };
+
+/// `pose`, or what registration says where that is apart.
+inline Pose unless_apart(const Pose& pose, const Pose& registered) {
+  return pose_error(registered, pose).translation_m > kDisagreementM ? registered : pose;
+}
 
 }  // namespace loopmark

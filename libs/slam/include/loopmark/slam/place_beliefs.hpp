@@ -12,6 +12,9 @@
 
 namespace loopmark {
 
+constexpr double kClearLead = 3.0;  ///< in log-odds: by so much a place must lead every other one
+constexpr double kNotThere = -5.0;  ///< log-odds that stand for a place of which a scan says nothing
+
 /// One answer of the registration of a scan to the map.
 struct PlaceAnswer {
   Pose T_map_lidar = Pose::Identity();
@@ -53,8 +56,8 @@ class PlaceBeliefs {
   std::optional<PlaceBelief> best() const;
 
   /// Whether the latest scan fits the most probable place, which is min_lead times as probable as the next one and
-  /// leads every other place (5 m or 20 degrees away) by log-odds of 3, in what the latest scan says and in what all
-  /// say.
+  /// leads every other place (5 m or 20 degrees away) by log-odds of 3 in what all scans say, and in what the latest
+  /// one says too, unless it leads by 6 in all.
   bool decided() const;
 
   const std::vector<PlaceBelief>& all() const { return beliefs_; }

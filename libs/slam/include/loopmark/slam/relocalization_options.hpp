@@ -25,7 +25,8 @@ struct RelocalizationOptions {
   std::size_t lost_after = 3;      ///< scans in a row that do not fit: the place is lost
   double max_jump_m = 1.5;         ///< disagreement of map and odometry in one scan, beyond it a scan does not fit
   double verify_every_m = 5.0;     ///< while tracking, registration judges the pose after this distance
-  double doubt_share = 0.75;       ///< and when fewer than this share of the usual keypoints fit the map
+  double compare_every_m = 50.0;   ///< and the whole map is asked about the scan after this one,
+  double doubt_share = 0.8;        ///< and when fewer than this share of the usual keypoints fit the map
   double max_gap_s = 2.0;          ///< without a scan for longer, the place is lost
 };
 
@@ -49,6 +50,7 @@ void describe(Visitor& v, RelocalizationOptions& o) {
   v.field("max_jump_m", o.max_jump_m, "disagreement of map and odometry in one scan, metres");
   v.field("verify_every_m", o.verify_every_m,
           "while tracking, registration judges the pose after this distance, metres");
+  v.field("compare_every_m", o.compare_every_m, "and the whole map is asked after this distance, metres");
   v.field("doubt_share", o.doubt_share, "and when fewer than this share of the usual keypoints fit the map");
   v.field("max_gap_s", o.max_gap_s, "without a scan for longer, the place is lost, seconds");
 }

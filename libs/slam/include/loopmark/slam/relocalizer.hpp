@@ -13,6 +13,9 @@
 
 namespace loopmark {
 
+struct Followed;
+struct PlaceComparison;
+
 /// The map as a relocalizer sees it. Calls may come from several threads; answers must not depend on what was asked
 /// before.
 class PlaceMap {
@@ -76,9 +79,12 @@ class Relocalizer {
   void search(const Scan& scan, TrackedScan tracked, RelocalizedScan& answer);
   Vector6d correct_first_scan(const Scan& scan, const TrackedScan& tracked, std::vector<PlaceAnswer>& answers);
   void judge_again(const PointCloud& cloud, const Pose& best, std::vector<PlaceAnswer>& answers) const;
-  void begin_tracking(const Pose& T_map_odometry, double log_odds);
-  void track(const Scan& scan, const TrackedScan& tracked, RelocalizedScan& answer);
-  Pose verified(const Scan& scan, const TrackedScan& tracked, const Pose& T_map_lidar);
+  void begin_tracking(const Pose& T_map_odometry, const Pose& T_odometry_lidar, double log_odds);
+  void track(const Scan& scan, const TrackedScan& tracked, bool just_found, RelocalizedScan& answer);
+  void examine(const PointCloud& cloud, const TrackedScan& tracked, bool just_found, Followed& followed);
+  Pose verified(const PointCloud& cloud, const TrackedScan& tracked, const Pose& T_map_lidar);
+  PlaceComparison compared(const PointCloud& cloud, const TrackedScan& tracked, Pose& T_map_lidar);
+  Pose settled(const TrackedScan& tracked, const Pose& T_map_lidar, const Pose& better);
   void lose(const std::string& reason, RelocalizedScan& answer);
 
   std::unique_ptr<State> state_;
