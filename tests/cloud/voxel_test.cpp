@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -21,6 +22,31 @@ std::vector<Eigen::Vector3f> random_points(std::size_t count, double extent, std
     points.emplace_back(rng.uniform(-extent, extent), rng.uniform(-extent, extent), rng.uniform(-2, 2));
   }
   return points;
+}
+
+TEST(Voxel, TheCentralPointIsTheNearestToTheCentreInWhateverOrderTheyCome) {
+  auto points = random_points(5000, 10, 2);
+  const auto squared = [](const Eigen::Vector3f& p) {
+    const Eigen::Array3f cell = (p * static_cast<float>(1.0 / 0.7)).array().floor();
+    return ((p * static_cast<float>(1.0 / 0.7)).array() - cell - 0.5F).matrix().squaredNorm();
+  };
+  std::map<std::tuple<int, int, int>, float> least;
+  const auto cell_of = [](const Eigen::Vector3f& p) {
+    const Eigen::Array3f cell = (p * static_cast<float>(1.0 / 0.7)).array().floor();
+    return std::make_tuple(static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()));
+  };
+  for (const Eigen::Vector3f& p : points) {
+    const auto found = least.emplace(cell_of(p), squared(p)).first;
+    found->second = std::min(found->second, squared(p));
+  }
+  for (int order = 0; order < 2; ++order) {
+    const auto indices = voxel_central_indices(points, 0.7);
+    EXPECT_EQ(indices.size(), least.size());
+    for (const std::size_t i : indices) {
+      EXPECT_NEAR(squared(points[i]), least.at(cell_of(points[i])), 1e-5F);
+    }
+    std::reverse(points.begin(), points.end());
+  }
 }
 
 TEST(Voxel, AgreesWithAnOrderedMap) {

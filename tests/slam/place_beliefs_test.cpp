@@ -45,21 +45,6 @@ TEST(PlaceBeliefs, ALeaderThatHardlyLeadsIsNotDecided) {
   EXPECT_TRUE(clear.decided()) << "99 : 0.8 : 1";
 }
 
-TEST(PlaceBeliefs, APlaceThatAllScansHaveLeftBehindIsNoRivalHoweverTheLatestLikesIt) {
-  const auto fits = [](double x, const Pose& here, double log_odds) {
-    return PlaceAnswer{answer(x, 0.5).T_map_lidar * here, Matrix6d::Identity(), log_odds};
-  };
-  PlaceBeliefs beliefs({});
-  beliefs.add({fits(10.0, moved(0.0), 5.0), fits(300.0, moved(0.0), 1.0)}, moved(0.0));
-  beliefs.add({fits(10.0, moved(2.0), 3.0), fits(300.0, moved(2.0), 2.5)}, moved(2.0));
-  EXPECT_FALSE(beliefs.decided()) << "it leads by 4.25 in all, and hardly in the latest";
-  beliefs.add({fits(10.0, moved(4.0), 4.0), fits(300.0, moved(4.0), -3.0)}, moved(4.0));
-  EXPECT_TRUE(beliefs.decided());
-  beliefs.add({fits(10.0, moved(6.0), 4.0), fits(300.0, moved(6.0), 4.5)}, moved(6.0));
-  EXPECT_GT(beliefs.best()->log_odds - beliefs.all()[1].log_odds, 6.0);
-  EXPECT_TRUE(beliefs.decided()) << "one scan that likes the other does not count against all before";
-}
-
 TEST(PlaceBeliefs, APlaceThatTheLatestScanFitsNearlyAsWellIsARival) {
   const auto fits = [](double x, const Pose& here, double log_odds) {
     return PlaceAnswer{answer(x, 0.5).T_map_lidar * here, Matrix6d::Identity(), log_odds};

@@ -29,6 +29,29 @@ std::vector<std::size_t> voxel_first_indices(const std::vector<Eigen::Vector3f>&
   return first;
 }
 
+std::vector<std::size_t> voxel_central_indices(const std::vector<Eigen::Vector3f>& points, double size_m) {
+  const float inverse = inverse_of(size_m);
+  VoxelTable table(points.size() / 4);
+  std::vector<std::size_t> central;
+  std::vector<float> least;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Voxel voxel = voxel_of(points[i], inverse);
+    const Eigen::Vector3f centre =
+        Eigen::Vector3f(static_cast<float>(voxel.x), static_cast<float>(voxel.y), static_cast<float>(voxel.z)) +
+        Eigen::Vector3f::Constant(0.5F);
+    const float squared = (points[i] * inverse - centre).squaredNorm();
+    const std::uint32_t place = table.insert(voxel);
+    if (place == central.size()) {
+      central.push_back(i);
+      least.push_back(squared);
+    } else if (squared < least[place]) {
+      central[place] = i;
+      least[place] = squared;
+    }
+  }
+  return central;
+}
+
 std::vector<Eigen::Vector3f> voxel_centroids(const std::vector<Eigen::Vector3f>& points, double size_m) {
   const float inverse = inverse_of(size_m);
   VoxelTable table(points.size() / 4);

@@ -55,7 +55,7 @@ TrackedScan Odometry::prepare(const Scan& scan) const {
   const double voxel_m = map_                     ? map_->voxel_m()
                          : options_.voxel_m > 0.0 ? options_.voxel_m
                                                   : voxel_for_scene(thin.points);
-  tracked.sample = select(thin, voxel_first_indices(thin.points, kSampleVoxels * voxel_m));
+  tracked.sample = select(thin, voxel_central_indices(thin.points, kSampleVoxels * voxel_m));
   if (deskews()) {
     tracked.sample.time_offset_s = times(tracked.sample);
   }
@@ -112,7 +112,7 @@ std::vector<Eigen::Vector3d> Odometry::in_map(const TrackedScan& tracked) const 
 Keypoints Odometry::keypoints(const TrackedScan& tracked, double cell_m) const {
   const std::vector<Eigen::Vector3f> points = deskewed_sample(tracked);
   Keypoints result;
-  for (const std::size_t i : voxel_first_indices(points, cell_m)) {
+  for (const std::size_t i : voxel_central_indices(points, cell_m)) {
     result.points.push_back(points[i]);
   }
   if (committed_ == 1 ||

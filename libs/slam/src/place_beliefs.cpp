@@ -11,8 +11,7 @@ namespace {
 constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
 constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
 constexpr double kElsewhereDeg = 20.0;
-constexpr double kNoRival = 2.0 * kClearLead;  ///< a place that lags so far in what all scans say: one may like it
-constexpr double kForgotten = -4.0;            ///< log-odds below which a place is dropped
+constexpr double kForgotten = -4.0;  ///< log-odds below which a place is dropped
 
 }  // namespace
 
@@ -108,9 +107,8 @@ bool PlaceBeliefs::decided() const {
   const PlaceBelief& best = beliefs_.front();
   return std::none_of(beliefs_.begin() + 1, beliefs_.end(), [&](const PlaceBelief& other) {
     const bool elsewhere = are_elsewhere(other.T_map_odometry * latest_, best.T_map_odometry * latest_);
-    const double lead = best.log_odds - other.log_odds;
-    const bool clear = lead >= kClearLead && (lead >= kNoRival || best.latest - other.latest >= kClearLead);
-    return best.p < options_.min_lead * other.p || (elsewhere && !clear);
+    const double lead = std::min(best.log_odds - other.log_odds, best.latest - other.latest);
+    return best.p < options_.min_lead * other.p || (elsewhere && lead < kClearLead);
   });
 }
 

@@ -101,11 +101,11 @@ Vector6d Relocalizer::correct_first_scan(const Scan& scan, const TrackedScan& tr
                                          std::vector<PlaceAnswer>& answers) {
   State& s = *state_;
   if (answers.empty() || answers.front().log_odds < kWorthCorrecting || s.committed != 1) {
-    return tracked.velocity;
+    return tracked.sweep_velocity;
   }
   const std::optional<SweepInMap> found = s.sweep_in_map(tracked, answers.front().T_map_lidar);
   if (!found) {
-    return tracked.velocity;
+    return tracked.sweep_velocity;
   }
   judge_again(s.odometry.deskewed_cloud(scan, found->velocity), found->T_map_lidar, answers);
   s.begin_own_motion(tracked, found->velocity);
@@ -146,10 +146,10 @@ void Relocalizer::search(const Scan& scan, TrackedScan tracked, RelocalizedScan&
   const bool moved =
       !s.searched_at || (s.searched_at->inverse() * T_odometry_lidar).translation().norm() >= s.options.search_every_m;
   if (moved) {
-    const PointCloud cloud = s.odometry.deskewed_cloud(scan, tracked.velocity);
+    const PointCloud cloud = s.odometry.deskewed_cloud(scan, tracked.sweep_velocity);
     std::vector<PlaceAnswer> answers =
         s.searched ? *s.searched : s.map->search(cloud, s.options.places, s.believed(T_odometry_lidar));
-    tracked.velocity = correct_first_scan(scan, tracked, answers);
+    tracked.sweep_velocity = correct_first_scan(scan, tracked, answers);
     s.beliefs.add(answers, T_odometry_lidar);
     s.searched_at = T_odometry_lidar;
   }

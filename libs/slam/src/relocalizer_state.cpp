@@ -33,7 +33,7 @@ std::optional<SweepInMap> Relocalizer::State::sweep_in_map(const TrackedScan& tr
 
 void Relocalizer::State::begin_own_motion(const TrackedScan& tracked, const Vector6d& velocity) {
   TrackedScan moving = tracked;
-  moving.velocity = velocity;
+  moving.velocity = moving.sweep_velocity = velocity;
   odometry.restart(tracked.T_map_lidar);
   odometry.commit(moving);
   first_with_motion = std::move(moving);

@@ -37,7 +37,7 @@ void Relocalizer::begin_tracking(const Pose& T_map_odometry, const Pose& T_odome
 /// yet.
 void Relocalizer::track(const Scan& scan, const TrackedScan& tracked, bool just_found, RelocalizedScan& answer) {
   State& s = *state_;
-  const PointCloud cloud = s.odometry.deskewed_cloud(scan, tracked.velocity);
+  const PointCloud cloud = s.odometry.deskewed_cloud(scan, tracked.sweep_velocity);
   Followed followed = s.followed(cloud, s.T_map_odometry * tracked.T_map_lidar);
   s.in_doubt = s.in_doubt || (!just_found && s.doubtful(followed));
   if (followed.fits) {

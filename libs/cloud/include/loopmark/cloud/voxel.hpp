@@ -14,6 +14,11 @@ namespace loopmark {
 /// (voxel 0.3 m, original points rather than centroids). size_m: edge of a voxel, metres, > 0.
 std::vector<std::size_t> voxel_first_indices(const std::vector<Eigen::Vector3f>& points, double size_m);
 
+/// Indices of one original point a voxel, the one nearest to its centre, in the order in which the voxels are first
+/// seen. The first point of a voxel in the order of a sweep lies to the side that the sweep comes from; this one to
+/// none. size_m: edge of a voxel, metres, > 0.
+std::vector<std::size_t> voxel_central_indices(const std::vector<Eigen::Vector3f>& points, double size_m);
+
 /// The centroids of the occupied voxels, in the order in which the voxels are first seen.
 std::vector<Eigen::Vector3f> voxel_centroids(const std::vector<Eigen::Vector3f>& points, double size_m);
 

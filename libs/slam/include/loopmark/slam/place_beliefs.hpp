@@ -56,8 +56,8 @@ class PlaceBeliefs {
   std::optional<PlaceBelief> best() const;
 
   /// Whether the latest scan fits the most probable place, which is min_lead times as probable as the next one and
-  /// leads every other place (5 m or 20 degrees away) by log-odds of 3 in what all scans say, and in what the latest
-  /// one says too, unless it leads by 6 in all.
+  /// leads every other place (5 m or 20 degrees away) by log-odds of 3, in what the latest scan says and in what all
+  /// say.
   bool decided() const;
 
   const std::vector<PlaceBelief>& all() const { return beliefs_; }
