@@ -62,6 +62,14 @@ TrackedScan Odometry::prepare(const Scan& scan) const {
   return tracked;
 }
 
+/// Whether the rates of motion over two gaps between scans can be held against each other: they are short and alike, so
+/// that no stamp is wrong.
+bool even(double gap_s, double last_gap_s) {
+  constexpr double kMostUneven = 1.5;
+  const auto [least, most] = std::minmax(gap_s, last_gap_s);
+  return most <= kUsualGapS && most <= kMostUneven * least;
+}
+
 /// Middle of the sweep against the scan's stamp, seconds.
 double middle_of_sweep(const std::vector<float>& times) {
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
@@ -75,7 +83,7 @@ Vector6d Odometry::during_sweep(const TrackedScan& tracked) const {
   Vector6d velocity = tracked.velocity;
   const std::vector<float>& times = tracked.sample.time_offset_s;
   const double gap_s = gap_to(tracked.stamp_s);
-  if (committed_ < 2 || times.empty() || std::max(gap_s, last_gap_s_) > kUsualGapS) {
+  if (committed_ < 2 || times.empty() || !even(gap_s, last_gap_s_)) {
     return velocity;
   }
   const double ahead_s = 0.5 * gap_s + middle_of_sweep(times);
@@ -89,7 +97,7 @@ Vector6d Odometry::sweep_of_last(const TrackedScan& next) const {
   if (committed_ == 1) {
     return next.velocity;
   }
-  if (times.empty() || std::max(gap_s, last_gap_s_) > kUsualGapS) {
+  if (times.empty() || !even(gap_s, last_gap_s_)) {
     return last_->sweep_velocity;
   }
   const double share = (0.5 * last_gap_s_ + middle_of_sweep(times)) / (0.5 * (gap_s + last_gap_s_));
