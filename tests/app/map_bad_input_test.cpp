@@ -109,14 +109,7 @@ TEST(MapBadInput, TimesThatRepeatOrGoBackAreSaidAndDoNotBendTheMap) {
   const ProgramResult result = map(log, run);
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, AllOf(HasSubstr("times.txt: 4 times do not rise"), HasSubstr("is that of scan 6")));
-  // The two whose stamps are swapped may be off by what 0.1 s is at 10 m/s: their motion is said to be another one.
-  const std::vector<Pose> poses = read_trajectory(run / "trajectory.tum").poses;
-  const std::vector<Pose> truth = truth_of(log);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Pose found = poses.front().inverse() * poses[i];
-    const PoseError error = pose_error(found, truth.front().inverse() * truth[i]);
-    EXPECT_LT(error.translation_m, i == 6 || i == 7 ? 1.0 : 0.3) << "scan " << i;
-  }
+  EXPECT_LT(worst_m(run, truth_of(log)), 0.3);
 }
 
 TEST(MapBadInput, PosesOfAnotherLengthAreSaidAndNotUsed) {

@@ -26,6 +26,12 @@ std::vector<std::size_t> in_range(const std::vector<Eigen::Vector3f>& points, co
   return kept;
 }
 
+/// Middle of the sweep against the scan's stamp, seconds.
+double middle_of_sweep(const std::vector<float>& times) {
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  return 0.5 * (static_cast<double>(*first) + static_cast<double>(*last));
+}
+
 }  // namespace
 
 bool Odometry::deskews() const {
@@ -60,20 +66,6 @@ TrackedScan Odometry::prepare(const Scan& scan) const {
     tracked.sample.time_offset_s = times(tracked.sample);
   }
   return tracked;
-}
-
-/// Whether the rates of motion over two gaps between scans can be held against each other: they are short and alike, so
-/// that no stamp is wrong.
-bool even(double gap_s, double last_gap_s) {
-  constexpr double kMostUneven = 1.5;
-  const auto [least, most] = std::minmax(gap_s, last_gap_s);
-  return most <= kUsualGapS && most <= kMostUneven * least;
-}
-
-/// Middle of the sweep against the scan's stamp, seconds.
-double middle_of_sweep(const std::vector<float>& times) {
-  const auto [first, last] = std::minmax_element(times.begin(), times.end());
-  return 0.5 * (static_cast<double>(*first) + static_cast<double>(*last));
 }
 
 /// The mean since the last scan lags behind by half a scan. How fast a car turns changes within tenths of a second, and

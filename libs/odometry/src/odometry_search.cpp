@@ -37,6 +37,12 @@ bool same_place(const Pose& a, const Pose& b, double distance_m) {
 
 }  // namespace
 
+bool even(double gap_s, double last_gap_s) {
+  constexpr double kMostUneven = 1.5;
+  const auto [least, most] = std::minmax(gap_s, last_gap_s);
+  return most <= kUsualGapS && most <= kMostUneven * least;
+}
+
 std::vector<Pose> straight_motions(const std::vector<double>& distances_m) {
   std::vector<Pose> result;
   for (const double distance_m : distances_m) {
@@ -54,7 +60,7 @@ std::vector<Odometry::Start> Odometry::starts(double stamp_s) const {
     return Start{last_->T_map_lidar * exp_se3(share * gap_s * last_->velocity), share * last_->velocity};
   };
   std::vector<Start> result = {after(1.0)};
-  if (gap_s > kUsualGapS) {  // it may have slowed down or stopped in between
+  if (!even(gap_s, last_gap_s_)) {  // it may have slowed down or stopped in between, or the stamp is wrong
     result.push_back(after(0.0));
     result.push_back(after(0.5));
   }
