@@ -3,7 +3,6 @@
 #include "consistency_kernels.hpp"
 
 #include <bit>
-#include <cmath>
 
 #include "loopmark/core/dispatch.hpp"
 

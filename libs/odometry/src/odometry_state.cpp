@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/core/byte_stream.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/odometry/odometry.hpp"
 
 namespace loopmark {
@@ -55,19 +54,11 @@ std::string Odometry::state() const {
     writer.text(map_->to_bytes());
     writer.text(coarse_->to_bytes());
   }
-  ByteWriter sealed;
-  sealed.value(crc32(writer.bytes()));
-  sealed.text(writer.bytes());
-  return sealed.bytes();
+  return sealed(writer.bytes());
 }
 
 void Odometry::set_state(const std::string& bytes) {
-  ByteReader seal(bytes);
-  const auto checksum = seal.value<std::uint32_t>();
-  const std::string content = seal.text();
-  if (crc32(content) != checksum) {
-    throw InputError("the saved state of the odometry is damaged");
-  }
+  const std::string content = unsealed(bytes, "the saved state of the odometry");
   ByteReader reader(content);
   if (reader.value<std::uint64_t>() != kFormat) {
     throw InputError("the saved state of the odometry is of another version of loopmark: map the log anew");

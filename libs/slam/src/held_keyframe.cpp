@@ -3,7 +3,6 @@
 #include "held_keyframe.hpp"
 
 #include "loopmark/core/byte_stream.hpp"
-#include "loopmark/core/files.hpp"
 
 namespace loopmark {
 
@@ -16,19 +15,11 @@ std::string to_bytes(const HeldKeyframe& held) {
   writer.vector(held.scan.cloud.intensity);
   writer.vector(held.scan.cloud.time_offset_s);
   writer.vector(held.scan.cloud.ring);
-  ByteWriter sealed;
-  sealed.value(crc32(writer.bytes()));
-  sealed.text(writer.bytes());
-  return sealed.bytes();
+  return sealed(writer.bytes());
 }
 
 HeldKeyframe held_from_bytes(const std::string& bytes) {
-  ByteReader seal(bytes);
-  const auto checksum = seal.value<std::uint32_t>();
-  const std::string content = seal.text();
-  if (crc32(content) != checksum) {
-    throw InputError("the keyframe that an interrupted run held back is damaged");
-  }
+  const std::string content = unsealed(bytes, "the keyframe that an interrupted run held back");
   ByteReader reader(content);
   HeldKeyframe held;
   held.record = scan_from_line(reader.text());

@@ -48,12 +48,13 @@ const ScanRecord& Mapper::add(const Scan& scan) {
   record.problem = placed.problem;
   if (deserves_keyframe(placed.tracked, placed.state)) {
     record.keyframe = keyframes_.size();
-    held_ = scan;
+    if (odometry_.deskews()) {
+      held_ = scan;
+    } else {
+      write_keyframe(scan, record);
+    }
   }
   keep(std::move(record));
-  if (!odometry_.deskews()) {
-    settle();
-  }
   return scans_.back();
 }
 

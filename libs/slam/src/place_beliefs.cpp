@@ -8,7 +8,6 @@
 namespace loopmark {
 namespace {
 
-constexpr double kMaxLogOdds = 9.0;  ///< however many scans agree, 1 in 8000 stays for "none of these"
 constexpr double kElsewhereM = 5.0;  ///< places so far apart are not two answers about one
 constexpr double kElsewhereDeg = 20.0;
 constexpr double kForgotten = -4.0;  ///< log-odds below which a place is dropped
@@ -86,7 +85,7 @@ void PlaceBeliefs::normalise() {
   }
   double sum = 1.0;
   for (PlaceBelief& belief : beliefs_) {
-    belief.log_odds -= std::max(0.0, most - kMaxLogOdds);  // their ratios stay
+    belief.log_odds -= std::max(0.0, most - kMostLogOdds);  // their ratios stay
     sum += std::exp(belief.log_odds);
   }
   for (PlaceBelief& belief : beliefs_) {

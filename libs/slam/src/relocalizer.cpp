@@ -126,9 +126,7 @@ void Relocalizer::judge_again(const PointCloud& cloud, const Pose& best, std::ve
   }
   for (const PlaceAnswer& again : state_->map->search(cloud, 0, believed)) {
     for (std::size_t i = 0; i < believed.size(); ++i) {
-      const PoseError moved = pose_error(again.T_map_lidar, believed[i]);
-      if (moved.translation_m < state_->options.same_place_m && moved.rotation_deg < state_->options.same_place_deg &&
-          again.log_odds >= answers[i].log_odds) {
+      if (say_the_same(again.T_map_lidar, believed[i], state_->options) && again.log_odds >= answers[i].log_odds) {
         answers[i].T_map_lidar = again.T_map_lidar;
         answers[i].log_odds = again.log_odds;
       }
@@ -143,9 +141,7 @@ void Relocalizer::judge_again(const PointCloud& cloud, const Pose& best, std::ve
 void Relocalizer::search(const Scan& scan, TrackedScan tracked, RelocalizedScan& answer) {
   State& s = *state_;
   const Pose& T_odometry_lidar = tracked.T_map_lidar;
-  const bool moved =
-      !s.searched_at || (s.searched_at->inverse() * T_odometry_lidar).translation().norm() >= s.options.search_every_m;
-  if (moved) {
+  if (s.is_due(s.searched_at, tracked, s.options.search_every_m)) {
     const PointCloud cloud = s.odometry.deskewed_cloud(scan, tracked.sweep_velocity);
     std::vector<PlaceAnswer> answers =
         s.searched ? *s.searched : s.map->search(cloud, s.options.places, s.believed(T_odometry_lidar));

@@ -16,7 +16,6 @@
 namespace loopmark {
 
 constexpr double kGapS = 0.3;           ///< a longer gap between two scans is a reason to verify
-constexpr double kMostLogOdds = 9.0;    ///< of a place, however many scans agree
 constexpr double kDisagreementM = 0.3;  ///< between map and own motion in one scan, or nearest points and registration
 
 /// A scan while the place is known.

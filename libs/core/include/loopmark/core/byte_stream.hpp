@@ -14,6 +14,12 @@
 
 namespace loopmark {
 
+/// `content` behind its checksum.
+std::string sealed(const std::string& content);
+
+/// The content of sealed bytes. Throws InputError naming `what` where they are damaged.
+std::string unsealed(const std::string& bytes, const std::string& what);
+
 class ByteWriter {
  public:
   template <class T>
@@ -32,9 +38,7 @@ class ByteWriter {
   }
   void points(const std::vector<Eigen::Vector3f>& points) {
     value(points.size());
-    for (const Eigen::Vector3f& point : points) {
-      raw(point.data(), 3);
-    }
+    raw(points.data(), points.size());
   }
   void text(const std::string& text) {
     value(text.size());

@@ -12,8 +12,9 @@
 
 namespace loopmark {
 
-constexpr double kClearLead = 3.0;  ///< in log-odds: by so much a place must lead every other one
-constexpr double kNotThere = -5.0;  ///< log-odds that stand for a place of which a scan says nothing
+constexpr double kMostLogOdds = 9.0;  ///< of a place: however many scans agree, 1 in 8000 stays for "none of these"
+constexpr double kClearLead = 3.0;    ///< in log-odds: by so much a place must lead every other one
+constexpr double kNotThere = -5.0;    ///< log-odds that stand for a place of which a scan says nothing
 
 /// One answer of the registration of a scan to the map.
 struct PlaceAnswer {
