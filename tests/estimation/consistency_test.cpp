@@ -17,22 +17,28 @@ namespace {
 using testing_support::synthetic_matches;
 using testing_support::SyntheticMatches;
 
-TEST(ConsistencyGraph, JoinsPairsOfEqualDistance) {
-  const SyntheticMatches world = synthetic_matches(150, 0.4, 0.2, 1);
+class GraphSize : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(GraphSize, JoinsPairsOfEqualDistance) {
+  const std::size_t n = GetParam();
+  const SyntheticMatches world = synthetic_matches(n, 0.4, 0.2, 1);
   const ConsistencyGraph graph(world.pairs, 0.6);
-  for (std::size_t i = 0; i < 150; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     std::size_t degree = 0;
-    for (std::size_t j = 0; j < 150; ++j) {
+    for (std::size_t j = 0; j < n; ++j) {
       const double s = (world.pairs.source[i] - world.pairs.source[j]).cast<double>().norm();
       const double t = (world.pairs.target[i] - world.pairs.target[j]).cast<double>().norm();
       if (std::abs(std::abs(s - t) - 0.6) > 1e-4) {
         EXPECT_EQ(graph.joined(i, j), i != j && std::abs(s - t) < 0.6);
       }
+      EXPECT_EQ(graph.joined(i, j), graph.joined(j, i));
       degree += graph.joined(i, j) ? 1U : 0U;
     }
     EXPECT_EQ(graph.degree(i), degree);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(WholeAndBrokenBlocks, GraphSize, testing::Values(3, 64, 65, 150, 192));
 
 /// Core numbers by their definition: peel everything below k until nothing changes.
 std::vector<std::size_t> brute_force_cores(const ConsistencyGraph& graph) {

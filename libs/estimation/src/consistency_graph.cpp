@@ -3,6 +3,7 @@
 #include "loopmark/estimation/consistency_graph.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <numeric>
 
@@ -13,11 +14,11 @@
 namespace loopmark {
 namespace {
 
-constexpr std::size_t kRowsPerTask = 64;
+constexpr std::size_t kBlock = 64;  // rows a task, and bits a word
 
-/// Packs 0/1 bytes into bits.
-void pack(const std::vector<std::uint8_t>& bytes, std::size_t words, std::uint64_t* bits) {
-  for (std::size_t w = 0; w < words; ++w) {
+/// Packs 0/1 bytes into bits, from word `from` on.
+void pack(const std::vector<std::uint8_t>& bytes, std::size_t from, std::size_t words, std::uint64_t* bits) {
+  for (std::size_t w = from; w < words; ++w) {
     std::uint64_t word = 0;
     for (std::size_t b = 0; b < 8; ++b) {
       std::uint64_t eight = 0;
@@ -33,15 +34,32 @@ void pack(const std::vector<std::uint8_t>& bytes, std::size_t words, std::uint64
 ConsistencyGraph::ConsistencyGraph(const PointPairs& pairs, double tolerance_m)
     : size_(pairs.size()), words_((pairs.size() + 63) / 64), bits_(size_ * words_) {
   const Scorer arrays(pairs, 1.0);
-  parallel_blocks(size_, kRowsPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint8_t> bytes(words_ * 64 + kernels::kPairLanes, 0);
-    for (std::size_t i = begin; i < end; ++i) {
-      kernels::consistency_row(arrays.arrays(), i, static_cast<float>(tolerance_m), bytes.data());
-      bytes[i] = 0;
-      std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(size_), bytes.end(), std::uint8_t{0});
-      pack(bytes, words_, bits_.data() + i * words_);
+  parallel_for(words_, [&](std::size_t block) { compare(arrays, static_cast<float>(tolerance_m), block); });
+  parallel_for(words_, [&](std::size_t block) { mirror(block); });
+}
+
+void ConsistencyGraph::compare(const Scorer& arrays, float tolerance_m, std::size_t block) {
+  std::vector<std::uint8_t> bytes(words_ * kBlock + kernels::kPairLanes, 0);
+  for (std::size_t i = block * kBlock; i < std::min(size_, (block + 1) * kBlock); ++i) {
+    kernels::consistency_row(arrays.arrays(), i, block * kBlock, tolerance_m, bytes.data());
+    bytes[i] = 0;
+    std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(size_), bytes.end(), std::uint8_t{0});
+    pack(bytes, block, words_, bits_.data() + i * words_);
+  }
+}
+
+void ConsistencyGraph::mirror(std::size_t block) {
+  std::array<std::uint64_t, kBlock> square{};
+  const std::size_t rows = std::min(kBlock, size_ - block * kBlock);
+  for (std::size_t other = 0; other < block; ++other) {
+    for (std::size_t r = 0; r < kBlock; ++r) {
+      square[r] = bits_[(other * kBlock + r) * words_ + block];
     }
-  });
+    kernels::transpose_bits(square.data());
+    for (std::size_t r = 0; r < rows; ++r) {
+      bits_[(block * kBlock + r) * words_ + other] = square[r];
+    }
+  }
 }
 
 std::size_t ConsistencyGraph::degree(std::size_t i) const { return kernels::common_bits(row(i), row(i), words_); }
@@ -52,40 +70,40 @@ std::size_t ConsistencyGraph::common(std::size_t i, std::size_t j) const {
 
 std::vector<std::size_t> core_numbers(const ConsistencyGraph& graph) {
   const std::size_t n = graph.size();
-  std::vector<std::size_t> degree(n);
-  std::size_t highest = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    degree[i] = graph.degree(i);
-    highest = std::max(highest, degree[i]);
-  }
+  std::vector<std::uint32_t> degree(n);
+  parallel_for(
+      n, [&](std::size_t i) { degree[i] = static_cast<std::uint32_t>(graph.degree(i)); }, kBlock);
   // Vertices sorted by degree, with the start of each degree's run, kept sorted while degrees fall.
-  std::vector<std::size_t> start(highest + 2, 0);
-  for (const std::size_t d : degree) {
+  const std::uint32_t highest = n == 0 ? 0 : *std::max_element(degree.begin(), degree.end());
+  std::vector<std::uint32_t> start(highest + 2, 0);
+  for (const std::uint32_t d : degree) {
     ++start[d + 1];
   }
   std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<std::size_t> order(n);
-  std::vector<std::size_t> place(n);
-  std::vector<std::size_t> fill = start;
-  for (std::size_t i = 0; i < n; ++i) {
+  std::vector<std::uint32_t> order(n);
+  std::vector<std::uint32_t> place(n);
+  std::vector<std::uint32_t> fill = start;
+  for (std::uint32_t i = 0; i < n; ++i) {
     place[i] = fill[degree[i]]++;
     order[place[i]] = i;
   }
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t v = order[k];
-    graph.for_each_neighbour(v, [&](std::size_t u) {
+  std::vector<std::uint64_t> left(graph.words(), ~std::uint64_t{0});
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const std::uint32_t v = order[k];
+    left[v / 64] &= ~(std::uint64_t{1} << (v % 64));
+    graph.for_each_neighbour(v, left.data(), [&](std::size_t u) {
       if (degree[u] <= degree[v]) {
         return;
       }
-      const std::size_t front = std::max(start[degree[u]], k + 1);
-      const std::size_t w = order[front];
+      const std::uint32_t front = std::max(start[degree[u]], k + 1);
+      const std::uint32_t w = order[front];
       std::swap(order[place[u]], order[front]);
       std::swap(place[u], place[w]);
       start[degree[u]] = front + 1;
       --degree[u];
     });
   }
-  return degree;
+  return {degree.begin(), degree.end()};
 }
 
 std::vector<std::size_t> maximum_core(const ConsistencyGraph& graph) {

@@ -9,8 +9,13 @@
 
 namespace loopmark::kernels {
 
-/// consistent[j] = 1 where the distances of pairs i and j differ by less than the tolerance, else 0.
-void consistency_row(const PairArrays& pairs, std::size_t i, float tolerance, std::uint8_t* consistent);
+/// consistent[j] = 1 where the distances of pairs i and j differ by less than the tolerance, else 0; from j = `from`
+/// on.
+void consistency_row(const PairArrays& pairs, std::size_t i, std::size_t from, float tolerance,
+                     std::uint8_t* consistent);
+
+/// Turns a block of 64 x 64 bits over its diagonal: bit c of word r becomes bit r of word c.
+void transpose_bits(std::uint64_t* block);
 
 /// Number of bits set in both.
 std::size_t common_bits(const std::uint64_t* a, const std::uint64_t* b, std::size_t words);

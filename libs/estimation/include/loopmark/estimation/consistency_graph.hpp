@@ -9,6 +9,8 @@
 
 namespace loopmark {
 
+class Scorer;
+
 /// Which matches may be right together: two are joined when the distance of their points is the same in both
 /// scans, whatever the motion (the translation- and rotation-invariant measurements of TEASER, Yang et al. 2021; the
 /// first-order compatibility of SC2-PCR, Chen et al. 2022). One bit a pair of matches: n^2 / 8 bytes.
@@ -29,13 +31,30 @@ class ConsistencyGraph {
   template <class Visit>
   void for_each_neighbour(std::size_t i, const Visit& visit) const {
     for (std::size_t w = 0; w < words_; ++w) {
-      for (std::uint64_t bits = row(i)[w]; bits != 0; bits &= bits - 1) {
-        visit(w * 64 + static_cast<std::size_t>(__builtin_ctzll(bits)));
-      }
+      visit_bits(w, row(i)[w], visit);
+    }
+  }
+
+  /// The same for those neighbours whose bit is set in `among` (words() words).
+  template <class Visit>
+  void for_each_neighbour(std::size_t i, const std::uint64_t* among, const Visit& visit) const {
+    for (std::size_t w = 0; w < words_; ++w) {
+      visit_bits(w, row(i)[w] & among[w], visit);
     }
   }
 
  private:
+  /// Fills the rows of a block from its diagonal on; mirror fills what is left of the diagonal from the rows above.
+  void compare(const Scorer& arrays, float tolerance_m, std::size_t block);
+  void mirror(std::size_t block);
+
+  template <class Visit>
+  static void visit_bits(std::size_t word, std::uint64_t bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) {
+      visit(word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits)));
+    }
+  }
+
   std::size_t size_;
   std::size_t words_;
   std::vector<std::uint64_t> bits_;
