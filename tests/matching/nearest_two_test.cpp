@@ -86,6 +86,58 @@ TEST(NearestTwo, EqualRowsGoToTheLowest) {
   EXPECT_EQ(found.backward[100].second, kNoNeighbour);
 }
 
+/// By sums of squared float differences, which are exact for whole numbers; the lower row wins.
+NearestTwo brute_force(const DescriptorMatrix& queries, Eigen::Index i, const DescriptorMatrix& in) {
+  NearestTwo best;
+  for (Eigen::Index j = 0; j < in.rows(); ++j) {
+    const float d = (queries.row(i) - in.row(j)).squaredNorm();
+    if (d < best.first_squared) {
+      best.second = best.first;
+      best.second_squared = best.first_squared;
+      best.first = static_cast<std::uint32_t>(j);
+      best.first_squared = d;
+    } else if (d < best.second_squared) {
+      best.second = static_cast<std::uint32_t>(j);
+      best.second_squared = d;
+    }
+  }
+  return best;
+}
+
+TEST(NearestTwo, ManyEqualDistancesAndALongRow) {
+  Rng rng(11);
+  const auto whole = [&](Eigen::Index rows) {
+    DescriptorMatrix m(rows, 5);
+    for (Eigen::Index k = 0; k < m.size(); ++k) {
+      m.data()[k] = 1.0F + static_cast<float>(rng.below(3));
+    }
+    return m;
+  };
+  DescriptorMatrix source = whole(500);
+  const DescriptorMatrix target = whole(400);
+  source.row(77).setConstant(900.0F);  // all others are one step long beside it
+  const TwoWayNearest found = nearest_two(source, target);
+  const auto expect_same = [](const NearestTwo& a, const NearestTwo& b) {
+    EXPECT_EQ(a.first, b.first);
+    EXPECT_EQ(a.second, b.second);
+    EXPECT_EQ(a.first_squared, b.first_squared);
+    EXPECT_EQ(a.second_squared, b.second_squared);
+  };
+  for (Eigen::Index i = 0; i < source.rows(); ++i) {
+    expect_same(found.forward[static_cast<std::size_t>(i)], brute_force(source, i, target));
+  }
+  for (Eigen::Index j = 0; j < target.rows(); ++j) {
+    expect_same(found.backward[static_cast<std::size_t>(j)], brute_force(target, j, source));
+  }
+}
+
+TEST(NearestTwo, OnlyBrokenRowsOnOneSide) {
+  const DescriptorMatrix zeros = DescriptorMatrix::Zero(20, 33);
+  const TwoWayNearest found = nearest_two(zeros, clustered(30, 33, 1.0, 3));
+  EXPECT_EQ(found.forward[0].first, kNoNeighbour);
+  EXPECT_EQ(found.backward[0].first, kNoNeighbour);
+}
+
 TEST(NearestTwo, ZeroAndBrokenRowsHaveNoPart) {
   DescriptorMatrix source = clustered(50, 33, 1.0, 3);
   DescriptorMatrix target = clustered(60, 33, 1.0, 4);

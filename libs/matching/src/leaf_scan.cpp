@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "leaf_scan.hpp"
+
+#include <algorithm>
+
+#include "leaf_scan_body.hpp"
+
+namespace loopmark::kernels {
+namespace {
+
+/// One lane, for any processor.
+struct Plain {
+  using Vector = std::int32_t;
+  static constexpr std::size_t kLanes = 1;
+  static Vector load(const std::int32_t* p) { return *p; }
+  static Vector spread(std::int32_t x) { return x; }
+  static Vector add(Vector a, Vector b) { return a + b; }
+  static Vector subtract(Vector a, Vector b) { return a - b; }
+  static Vector larger(Vector a, Vector b) { return std::max(a, b); }
+  static Vector multiply_pairs(Vector a, Vector b) {
+    const auto low = [](Vector x) { return static_cast<std::int32_t>(static_cast<std::int16_t>(x & 0xFFFF)); };
+    return low(a) * low(b) + (a >> 16) * (b >> 16);
+  }
+  static std::uint32_t less(Vector a, Vector b) { return a < b ? 1U : 0U; }
+};
+
+}  // namespace
+
+bool processor_has_avx512() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx512bw") != 0;
+#else
+  return false;
+#endif
+}
+
+bool processor_has_avx2() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
+ScanChunks scan_chunks_plain() { return scan<Plain>; }
+
+ScanChunks scan_chunks() {
+  if (processor_has_avx512() && scan_chunks_avx512() != nullptr) {
+    return scan_chunks_avx512();
+  }
+  if (processor_has_avx2() && scan_chunks_avx2() != nullptr) {
+    return scan_chunks_avx2();
+  }
+  return scan_chunks_plain();
+}
+
+}  // namespace loopmark::kernels
