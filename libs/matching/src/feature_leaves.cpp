@@ -87,7 +87,8 @@ FeatureLeaves::FeatureLeaves(const DescriptorMatrix& rows, const DescriptorMatri
   }
   leaves_ = (order_.size() + kLeaf - 1) / kLeaf;
   const std::vector<Corner> heads = heads_of(rotated);
-  sort_into_leaves(0, static_cast<std::uint32_t>(order_.size()), heads);
+  Keys keys;
+  sort_into_leaves(0, static_cast<std::uint32_t>(order_.size()), heads, keys);
   const auto columns = static_cast<std::size_t>(rows.cols());
   rows_.assign(order_.size() * padded_, 0.0F);
   for (std::size_t place = 0; place < order_.size(); ++place) {
@@ -98,7 +99,8 @@ FeatureLeaves::FeatureLeaves(const DescriptorMatrix& rows, const DescriptorMatri
 }
 
 /// Splits along the widest coordinate, at a multiple of kLeaf, within a leaf of kChunk, until one chunk is left.
-void FeatureLeaves::sort_into_leaves(std::uint32_t begin, std::uint32_t end, const std::vector<Corner>& heads) {
+void FeatureLeaves::sort_into_leaves(std::uint32_t begin, std::uint32_t end, const std::vector<Corner>& heads,
+                                     Keys& keys) {
   const std::size_t part = end - begin > kLeaf ? kLeaf : kChunk;
   const std::size_t parts = (end - begin + part - 1) / part;
   if (parts <= 1) {
@@ -117,15 +119,15 @@ void FeatureLeaves::sort_into_leaves(std::uint32_t begin, std::uint32_t end, con
   for (std::size_t d = 1; d < kBox; ++d) {
     widest = high[d] - low[d] > high[widest] - low[widest] ? d : widest;
   }
-  const std::uint32_t middle = begin + static_cast<std::uint32_t>((parts + 1) / 2 * part);
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const float va = heads[a][widest];
-                     const float vb = heads[b][widest];
-                     return va < vb || (va == vb && a < b);
-                   });
-  sort_into_leaves(begin, middle, heads);
-  sort_into_leaves(middle, end, heads);
+  const auto middle = static_cast<std::ptrdiff_t>((parts + 1) / 2 * part);
+  keys.clear();
+  for (std::uint32_t i = begin; i < end; ++i) {
+    keys.emplace_back(heads[order_[i]][widest], order_[i]);
+  }
+  std::nth_element(keys.begin(), keys.begin() + middle, keys.end());
+  std::transform(keys.begin(), keys.end(), order_.begin() + begin, [](const auto& key) { return key.second; });
+  sort_into_leaves(begin, begin + static_cast<std::uint32_t>(middle), heads, keys);
+  sort_into_leaves(begin + static_cast<std::uint32_t>(middle), end, heads, keys);
 }
 
 void FeatureLeaves::fill_words(const DescriptorMatrix& rotated, double factor) {
@@ -134,17 +136,16 @@ void FeatureLeaves::fill_words(const DescriptorMatrix& rotated, double factor) {
   as_targets_.assign(places * pairs_, 0);
   head_norms_.assign(places, kFarOff);
   norms_.assign(places, kFarOff);
-  std::vector<std::int32_t> numbers(2 * pairs_, 0);
+  const auto columns = static_cast<std::size_t>(rotated.cols());
+  std::vector<std::int32_t> numbers(static_cast<std::size_t>(rotated.size()));
+  kernels::round_products(rotated.data(), numbers.size(), static_cast<float>(factor), static_cast<float>(kLongest),
+                          numbers.data());
   for (std::size_t place = 0; place < order_.size(); ++place) {
-    for (Eigen::Index d = 0; d < rotated.cols(); ++d) {
-      const double number = static_cast<double>(rotated(order_[place], d)) * factor;
-      numbers[static_cast<std::size_t>(d)] =
-          static_cast<std::int32_t>(std::lrint(std::clamp(number, -kLongest, kLongest)));
-    }
+    const std::int32_t* row = numbers.data() + order_[place] * columns;
     std::int32_t norm = 0;
     for (std::size_t p = 0; p < pairs_; ++p) {
-      const std::int32_t low = numbers[2 * p];
-      const std::int32_t high = numbers[2 * p + 1];
+      const std::int32_t low = row[2 * p];
+      const std::int32_t high = 2 * p + 1 < columns ? row[2 * p + 1] : 0;
       as_queries_[place * pairs_ + p] = word_of(low, high);
       as_targets_[(place / kChunk * pairs_ + p) * kChunk + place % kChunk] = word_of(-2 * low, -2 * high);
       norm += low * low + high * high;

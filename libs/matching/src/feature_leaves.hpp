@@ -70,7 +70,8 @@ class FeatureLeaves {
 
   using Corner = std::array<float, kernels::kBox>;
   std::pair<Corner, Corner> box_of(std::size_t chunk) const;
-  void sort_into_leaves(std::uint32_t begin, std::uint32_t end, const std::vector<Corner>& heads);
+  using Keys = std::vector<std::pair<float, std::uint32_t>>;
+  void sort_into_leaves(std::uint32_t begin, std::uint32_t end, const std::vector<Corner>& heads, Keys& keys);
   void fill_words(const DescriptorMatrix& rotated, double factor);
   void fill_boxes(const std::vector<Corner>& heads);
 

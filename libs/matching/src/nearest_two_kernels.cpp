@@ -18,6 +18,16 @@ float row_distance(const float* a, const float* b, std::size_t padded) {
 }
 
 LOOPMARK_DISPATCH
+void round_products(const float* x, std::size_t count, float factor, float largest, std::int32_t* __restrict whole) {
+  for (std::size_t i = 0; i < count; ++i) {
+    float product = x[i] * factor;
+    product = product < largest ? product : largest;
+    product = product > -largest ? product : -largest;
+    whole[i] = static_cast<std::int32_t>(product + (product < 0.0F ? -0.5F : 0.5F));
+  }
+}
+
+LOOPMARK_DISPATCH
 void box_bounds(const float* q_low, const float* q_high, const float* low, const float* high, std::size_t count,
                 float* __restrict bound) {
   for (std::size_t i = 0; i < count; ++i) {

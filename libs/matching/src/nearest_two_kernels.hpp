@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace loopmark::kernels {
 
@@ -13,6 +14,9 @@ constexpr std::size_t kRowStep = 8;
 
 /// Squared distance of two padded rows, the same bits on every processor.
 float row_distance(const float* a, const float* b, std::size_t padded);
+
+/// Rounds the products of `count` finite numbers and a factor to whole numbers, up to `largest` in size.
+void round_products(const float* x, std::size_t count, float factor, float largest, std::int32_t* whole);
 
 /// Lower bounds of the squared distance from anything in a box (q_low, q_high [kBox]) to what is in `count` boxes; low
 /// and high are [kBox][count].

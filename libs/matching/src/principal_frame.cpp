@@ -23,7 +23,8 @@ void add_sample(const DescriptorMatrix& m, std::vector<Eigen::VectorXd>& sample)
 }  // namespace
 
 bool is_usable(const DescriptorMatrix& rows, Eigen::Index r) {
-  return rows.row(r).allFinite() && rows.row(r).cwiseAbs().maxCoeff() > 0.0F;
+  const float largest = rows.row(r).lpNorm<Eigen::Infinity>();
+  return largest > 0.0F && (rows.row(r) * 0.0F).squaredNorm() == 0.0F;  // NaN where one is not finite
 }
 
 PrincipalFrame PrincipalFrame::of(const DescriptorMatrix& a, const DescriptorMatrix& b) {
