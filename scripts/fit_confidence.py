@@ -6,7 +6,8 @@
 usage: fit_confidence.py [--check] MODES.txt [MODES.txt ...]     (written by benchmarks/engine_modes)
 
 P_i = exp(l_i) / (1 + sum_j exp(l_j)), l = sum_s share_s (bias_s + sum_k worth_sk(f_k)). The scenes s: little or much
-structure to ask about, and sensors near to each other or far apart; a pair may be a share of each (see scenes()). Each worth is
+structure to ask about, sensors near to each other or far apart, few or many beams; a pair may be a share of each (see
+scenes()). Each worth is
 a piecewise linear curve between quantiles of its feature (right and wrong modes weigh alike in them), which may only rise
 (or only fall, or either) and is flat beyond them: no evidence counts for more than it did in any pair seen. Prints
 libs/registration/src/confidence_curves.hpp. --check: only a cross-validation that leaves out one file at a time. Needs
@@ -21,12 +22,13 @@ from scipy import optimize
 # +1: more is never worth less, -1: never worth more, 0: either.
 SIGNS = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "object_clash": -1, "far_conflict": -1, "contradicted": -1,
          "tall_contradicted": -1, "residual": -1, "objects": 1, "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1,
-         "fewer": 0, "more": 0}
+         "fewer": 0, "more": 0, "fill": 0, "fill_more": 0}
 QUANTILES = [0.01, 0.12, 0.25, 0.4, 0.6, 0.75, 0.88, 0.99]
-RIDGE, ROUGHNESS, STEPS = 0.0003, 0.0006, 400
+RIDGE, ROUGHNESS, STEPS = 0.0001, 0.0002, 800
 LITTLE, MUCH = 5.5, 7.5  # structure of the scan that has fewer, logarithmic
 NEAR_M, FAR_M = 10.0, 50.0  # between the sensors
-SCENES = ["little structure", "much structure", "near", "far"]
+SPARSE, DENSE = 1.0, 1.25  # fine patches in a coarse one, logarithmic, of the scan that has fewer
+SCENES = ["little structure", "much structure", "near", "far", "sparse", "dense"]
 CALM = 2.0  # how much a pair of different places weighs against one of the same place
 
 
@@ -66,7 +68,8 @@ def scenes(x):
     much = np.clip((x[:, names.index("fewer")] - LITTLE) / (MUCH - LITTLE), 0.0, 1.0)
     apart_m = -10.0 * np.log(np.maximum(x[:, names.index("near")], 1e-9))
     far = np.clip((apart_m - NEAR_M) / (FAR_M - NEAR_M), 0.0, 1.0)
-    return np.stack([1.0 - much, much, 1.0 - far, far], axis=1)
+    dense = np.clip((x[:, names.index("fill")] - SPARSE) / (DENSE - SPARSE), 0.0, 1.0)
+    return np.stack([1.0 - much, much, 1.0 - far, far, 1.0 - dense, dense], axis=1)
 
 
 def design(x, knots, signs):
@@ -181,6 +184,8 @@ def print_header(knots, worth, bias):
     print(f"constexpr double kMuch = {MUCH};")
     print(f"constexpr double kNear = {NEAR_M};  // metres between the sensors")
     print(f"constexpr double kFar = {FAR_M};")
+    print(f"constexpr double kSparse = {SPARSE};  // fine patches in a coarse one, logarithmic, of the scan that has fewer")
+    print(f"constexpr double kDense = {DENSE};")
     print(f"constexpr std::array<double, kScenes> kBias = {row(bias)};")
     print("constexpr std::array<Worth, kFeatures> kWorth = {{")
     for k, name in enumerate(SIGNS):

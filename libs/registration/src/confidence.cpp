@@ -18,7 +18,8 @@ std::array<double, kScenes> scene_shares(const Features& features) {
   const double apart_m = -10.0 * std::log(std::max(feature(features, "near"), 1e-9));
   const double much = rise(feature(features, "fewer"), kLittle, kMuch);
   const double far = rise(apart_m, kNear, kFar);
-  return {1.0 - much, much, 1.0 - far, far};
+  const double dense = rise(feature(features, "fill"), kSparse, kDense);
+  return {1.0 - much, much, 1.0 - far, far, 1.0 - dense, dense};
 }
 
 /// The value of a feature's curves, mixed by the shares of the scenes.

@@ -11,8 +11,9 @@
 namespace loopmark {
 
 /// Kinds of scene in which the same evidence is worth more or less: little structure to ask about, much of it; sensors
-/// near to each other, far apart. What a beam misses 50 m away says less than what it misses beside the car.
-constexpr std::size_t kScenes = 4;
+/// near to each other, far apart; few beams, many. What a beam misses 50 m away says less than what it misses beside
+/// the car, and what sixteen beams miss less than what sixty-four do.
+constexpr std::size_t kScenes = 6;
 
 /// What a feature is worth in each scene: curves through eight points, flat beyond them.
 struct Worth {

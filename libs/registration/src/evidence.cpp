@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evidence.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -102,6 +101,12 @@ bool surface_runs_on(const PatchMap& coarse, const Eigen::Vector3f& point) {
   return wide != nullptr && (wide->planarity < kPlanar || std::abs(wide->normal.dot(wide->mean - point)) < kOffSurface);
 }
 
+/// Log of how many fine patches a coarse one holds on average.
+double fill_of(const PreparedScan::Data& scan) {
+  const auto fine = static_cast<double>(scan.fine.patches().size());
+  return std::log(std::max(1.0, fine) / std::max(1.0, static_cast<double>(scan.coarse.patches().size())));
+}
+
 }  // namespace
 
 Inquiry::Side::Side(const PreparedScan::Data& scan, std::size_t asked)
@@ -109,6 +114,7 @@ Inquiry::Side::Side(const PreparedScan::Data& scan, std::size_t asked)
       coarse(&scan.coarse),
       structure(sampled_structure(scan.fine.patches(), asked)),
       ground(sampled_ground(scan.fine.patches(), asked / 3)) {
+  fill = fill_of(scan);
   is_object = objects_among(structure, scan.fine.patches());
   standing = static_cast<double>(std::count_if(scan.fine.patches().begin(), scan.fine.patches().end(),
                                                [](const Patch& patch) { return patch.height > kStructureHeight; }));
@@ -202,7 +208,9 @@ Features Inquiry::features(const Alignment& alignment, const PeakHeights& peak) 
           (a.ground_step + b.ground_step + 0.1 * kDoubt) / (a.ground + b.ground + kDoubt),
           std::exp(-0.1 * T.translation().norm()),
           std::log1p(std::min(source_.standing, target_.standing)),
-          std::log1p(std::max(source_.standing, target_.standing))};
+          std::log1p(std::max(source_.standing, target_.standing)),
+          std::min(source_.fill, target_.fill),
+          std::max(source_.fill, target_.fill)};
 }
 
 }  // namespace loopmark

@@ -34,19 +34,20 @@ struct Testimony {
   double met() const { return low.met + tall.met; }
 };
 
-constexpr std::size_t kFeatures = 16;
+constexpr std::size_t kFeatures = 18;
 using Features = std::array<double, kFeatures>;
 /// agreement: share of the structure that is met. absence, clash, conflict: what speaks against, logarithmic. objects:
 /// how many are met, logarithmic. contradicted: cells, logarithmic. peak: height of the correlation peak; rise: against
 /// chance's, logarithmic (not against the highest: of two places that look alike both rise, and only one leads).
 /// ground: how much ground is shared (logarithmic) and how far it gapes, metres. near: of the sensors to each other.
 /// fewer, more: patches of structure of the scan that has fewer and of the other, logarithmic: how much can be asked at
-/// all. How much tall or far structure and how many landmarks are met is left out: made-up towns and real ones differ
-/// too much in it.
+/// all. fill, fill_more: fine patches in a coarse one, logarithmic, of the scan that has fewer and of the other:
+/// sixteen beams leave gaps that sixty-four fill. How much tall or far structure and how many landmarks are met is left
+/// out: made-up towns and real ones differ too much in it.
 constexpr std::array<std::string_view, kFeatures> kFeatureNames = {
     "agreement",         "low_absence", "tall_clash", "object_clash", "far_conflict", "contradicted",
     "tall_contradicted", "residual",    "objects",    "peak",         "rise",         "ground",
-    "ground_gap",        "near",        "fewer",      "more"};
+    "ground_gap",        "near",        "fewer",      "more",         "fill",         "fill_more"};
 
 /// A feature by its name.
 constexpr double feature(const Features& features, std::string_view name) {
@@ -90,6 +91,7 @@ class Inquiry {
     std::vector<bool> is_object;  ///< of each patch of structure: low, and nothing tall above it
     std::vector<Patch> ground;
     std::vector<Witness> witnesses;
+    double fill = 0.0;      ///< log of fine patches in a coarse one
     double standing = 0.0;  ///< patches of structure
     double ground_stands_for = 1.0;
     double stands_for = 1.0;  ///< patches of structure (up to kAllAsked) for which each one that is asked stands
