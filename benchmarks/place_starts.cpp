@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-/// place_starts RUN RUN_TRUTH LOG LOG_TRUTH|- OUT.txt STARTS SECONDS: starts a relocalizer, which knows nothing, at
-/// STARTS places spread over a log, feeds it the scans of SECONDS as they are in the log, and writes one row a start
-/// for benchmarks/relocalization.py: scan; metres from its true position to the nearest scan of the map; what the first
-/// scan gave (1 right, -1 wrong, 0 nothing); seconds of driving until the first right pose (-1: none); metres driven
-/// until then or the end; answers; wrong ones; P(correct) and error (metres, degrees) of the first wrong one, or of the
-/// last answer; why the last scan has no pose. RUN_TRUTH, LOG_TRUTH: poses in one world; LOG_TRUTH "-": the log is of
-/// another world, every answer is wrong. Rows come as starts are done.
+/// place_starts RUN RUN_TRUTH LOG LOG_TRUTH|- OUT.txt STARTS SECONDS [SCAN,SCAN...]: starts a relocalizer, which knows
+/// nothing, at STARTS places spread over a log (or at the scans that are named), feeds it the scans of SECONDS of
+/// driving as they are in the log, and writes one row a start for benchmarks/relocalization.py: scan; metres from its
+/// true position to the nearest scan of the map; what the first scan gave (1 right, -1 wrong, 0 nothing); seconds of
+/// driving until the first right pose (-1: none); metres driven until then or the end; answers; wrong ones; P(correct)
+/// and error (metres, degrees) of the first wrong one, or of the last answer; why the last scan has no pose. Time in
+/// which the sensor stands (below 0.3 m/s by its true poses) is no driving: up to 10 s of it are fed and not counted.
+/// RUN_TRUTH, LOG_TRUTH: poses in one world; LOG_TRUTH "-": the log is of another world, every answer is wrong. Rows
+/// come as starts are done.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
+#include <sstream>
 #include <string>
 
 #include "loopmark/core/parallel.hpp"
@@ -28,6 +31,9 @@
 namespace {
 
 using namespace loopmark;
+
+constexpr double kStands = 0.3;          // m/s
+constexpr double kMostStandingS = 10.0;  // of a start
 
 struct Stage {
   std::shared_ptr<const PlaceMap> map;
@@ -82,13 +88,18 @@ Start started_at(const Stage& stage, std::size_t first, double limit_s) {
   start.mapped_m = stage.query.empty() ? 1e6 : stage.truth.distance(stage.query[first]);
   Relocalizer relocalizer(stage.map, {}, {}, stage.compensation, stage.log->info().sweep.value_or(SweepModel{}));
   const std::vector<Pose> poses = stage.log->truth();
+  double seconds = 0.0;
+  double standing_s = 0.0;
   for (std::size_t i = first; i < stage.log->size(); ++i) {
-    const double seconds = stage.log->stamp_s(i) - stage.log->stamp_s(first);
-    if (seconds > limit_s) {
-      break;
+    if (i > first) {
+      const double gap_s = stage.log->stamp_s(i) - stage.log->stamp_s(i - 1);
+      const double moved_m = poses.empty() ? 0.0 : (poses[i].translation() - poses[i - 1].translation()).norm();
+      const bool stands = !poses.empty() && moved_m < kStands * gap_s && standing_s + gap_s <= kMostStandingS;
+      (stands ? standing_s : seconds) += gap_s;
+      start.driven_m += start.right_s < 0.0 ? moved_m : 0.0;
     }
-    if (i > first && start.right_s < 0.0 && !poses.empty()) {
-      start.driven_m += (poses[i].translation() - poses[i - 1].translation()).norm();
+    if (seconds > limit_s + 1e-6) {
+      break;
     }
     take(stage, relocalizer.add(stage.log->read(i)), seconds, start);
   }
@@ -101,7 +112,16 @@ void write_row(std::ostream& out, const Start& s) {
       << std::endl;
 }
 
-int run(char** argv) {
+std::vector<std::size_t> numbers(const std::string& text) {
+  std::vector<std::size_t> all;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    all.push_back(std::stoul(word));
+  }
+  return all;
+}
+
+int run(int argc, char** argv) {
   const RunFolder folder = RunFolder::open(argv[1]);
   const SolvedMap solved = solve_map(read_scan_records(folder), read_loop_records(folder), {}, {});
   std::unique_ptr<DriveLog> log = open_log(argv[3]);
@@ -116,12 +136,18 @@ int run(char** argv) {
   while (usable > 1 && stage.log->stamp_s(usable - 1) > end_s) {
     --usable;
   }
-  const std::size_t starts = std::min(count, usable);
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < std::min(count, usable); ++i) {
+    starts.push_back(i * usable / std::min(count, usable));
+  }
+  if (argc > 8) {
+    starts = numbers(argv[8]);
+  }
   std::ofstream out(argv[5]);
   std::mutex mutex;
-  Progress progress("starts", starts);
-  parallel_for(starts, [&](std::size_t i) {
-    const Start start = started_at(stage, i * usable / starts, limit_s);
+  Progress progress("starts", starts.size());
+  parallel_for(starts.size(), [&](std::size_t i) {
+    const Start start = started_at(stage, starts[i], limit_s);
     const std::scoped_lock lock(mutex);
     write_row(out, start);
     progress.add();
@@ -133,8 +159,8 @@ int run(char** argv) {
 
 int main(int argc, char** argv) {
   if (argc < 8) {
-    std::fprintf(stderr, "usage: place_starts RUN RUN_TRUTH LOG LOG_TRUTH|- OUT.txt STARTS SECONDS\n");
+    std::fprintf(stderr, "usage: place_starts RUN RUN_TRUTH LOG LOG_TRUTH|- OUT.txt STARTS SECONDS [SCAN,SCAN...]\n");
     return 2;
   }
-  return run(argv);
+  return run(argc, argv);
 }

@@ -14,8 +14,9 @@ a map of the even ones, its last third against a map of the first two thirds (0.
 simulated: day 1 (HDL-64E) is mapped; queries of day 2 (other parked cars) driven in the left lane, the other way, with an
 HDL-32E, with an OS1-64 the other way, and of another town: single scans, each on its own and without its motion during
 the sweep (place_answers), and relocalizers started at places all over the logs, which take scans as they are
-(place_starts: what the first scan gives, and the first 2 s of driving); then a drill of --events, the drive of the other
-direction taking part. --asked: metres of each drive of day 2; scans farther than 10 m from the map do not count.
+(place_starts: what the first scan gives, and the first 2 s of driving, in which the sensor moves);
+then a drill of --events, the drive of the other direction taking part. --asked: metres of each drive of day 2; scans
+farther than 10 m from the map do not count.
 fitting: the same logs of small towns, single scans only, for scripts/fit_places.py; one file of answers a town.
 What is in WORK already is taken as it is; --again asks the maps anew. Whether a pose was given is what the relocalizer
 decides (docs/relocalization.md); right within 5 deg. table tells what answers that are there come to.

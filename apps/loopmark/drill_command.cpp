@@ -42,6 +42,8 @@ void declare(CLI::App& command, DrillArguments& a) {
   command.add_option("WHAT", a.what, "a run of loopmark map, or a drive log")->required();
   command.add_option("-o,--output", a.output, "folder to make; must not exist")->required();
   command.add_option("--events", a.events, "number of cuts (default 40)")->check(CLI::PositiveNumber);
+  command.add_option("--only", a.job.only, "of these cuts, run those alone that drill.csv numbers so: 17,42")
+      ->delimiter(',');
   command.add_option("--seed", a.seed, "seed of everything drawn (default 1)");
   command.add_option("--within", a.within_s, "found again in time: seconds of driving (default 5)");
   command.add_option("--limit", a.limit_s, "give an event up after so many seconds of driving (default 15)");

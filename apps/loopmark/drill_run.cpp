@@ -137,6 +137,23 @@ std::vector<DrillScan> scans_of_drive(const OpenedRun& run, const SolvedMap& map
   return scans;
 }
 
+/// An event is the same whichever others are run.
+std::vector<DrillEvent> chosen(const std::vector<DrillEvent>& planned, const std::vector<std::size_t>& only) {
+  if (only.empty()) {
+    return planned;
+  }
+  std::vector<DrillEvent> events;
+  for (const std::size_t number : only) {
+    const auto event =
+        std::find_if(planned.begin(), planned.end(), [&](const DrillEvent& e) { return e.number == number; });
+    if (event == planned.end()) {
+      throw InputError("--only", "", "there is no event " + std::to_string(number) + " in this drill", "see --events");
+    }
+    events.push_back(*event);
+  }
+  return events;
+}
+
 std::vector<DrillOutcome> run_events(const DrillStage& stage, const std::vector<DrillEvent>& events,
                                      const DrillOptions& options) {
   std::vector<DrillOutcome> outcomes(events.size());
@@ -191,7 +208,7 @@ DrillResult run_drill(const DrillJob& job, const std::string& title, const AppOp
     stage.other = {scans_of_drive(run, map, places, job, *drive), reader(drive, of_drive)};
   }
   stage.compensation = is_raw(of_run) || is_raw(of_drive) ? Compensation::kRawGivenTimes : Compensation::kCompensated;
-  result.events = plan_drill(stage.run.scans, stage.other.scans, options.drill);
+  result.events = chosen(plan_drill(stage.run.scans, stage.other.scans, options.drill), job.only);
   result.outcomes = run_events(stage, result.events, options.drill);
   result.scans = stage.run.scans;
   result.drive_scans = stage.other.scans;

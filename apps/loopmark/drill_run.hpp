@@ -19,6 +19,7 @@ struct DrillJob {
   std::filesystem::path drive;        ///< another drive of the same place; empty: none
   std::filesystem::path drive_truth;  ///< its true poses; empty: what lies beside its scans
   std::filesystem::path map_truth;    ///< true poses of the run's scans; empty: those that it was mapped with
+  std::vector<std::size_t> only;      ///< numbers of the events that are run; empty: all
 };
 
 struct DrillResult {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "loopmark/core/files.hpp"
 #include "passing_log.hpp"
@@ -94,6 +95,24 @@ TEST_F(Drill, ASeedRepeatsItByteForByteAtAnyNumberOfThreads) {
   EXPECT_NE(sha256_of_file(one / "drill.csv"), sha256_of_file(other / "drill.csv"));
 }
 
+TEST_F(Drill, EventsThatAreChosenAreTheSameAlone) {
+  const fs::path all = fresh("all");
+  const fs::path some = fresh("some");
+  ASSERT_EQ(drill(run_, all).exit_code, 0);
+  ASSERT_EQ(drill(run_, some, {"--only", "4,1"}).exit_code, 0);
+  const auto rows = [](const fs::path& folder) {
+    std::istringstream lines(read_file(folder / "drill.csv"));
+    std::vector<std::string> found;
+    for (std::string line; std::getline(lines, line);) {
+      found.push_back(line);
+    }
+    return found;
+  };
+  const std::vector<std::string> every = rows(all);
+  ASSERT_EQ(every.size(), 7U);
+  EXPECT_THAT(rows(some), testing::ElementsAre(every[0], every[5], every[2]));
+}
+
 TEST_F(Drill, GoesOnInAnotherDriveWhoseTruthIsKnown) {
   const fs::path drive = make_log("drive", 1.5, 1000);
   const fs::path out = fresh("with_drive");
@@ -134,6 +153,7 @@ TEST_F(Drill, BadInputIsRefusedAndNothingIsLeft) {
   expect_refusal(run_, {"--set", "drill.disturbances=[flood]"}, "flood");
   expect_refusal(run_, {"--set", "drill.disturbances=[other-drive]"}, "too short");
   expect_refusal(run_, {"--truth", log_ / "poses.txt"}, "--drive");
+  expect_refusal(run_, {"--only", "6"}, "no event 6");
   expect_refusal(run_, {"--within", "20"}, "limit_s");
   expect_refusal(run_, {"--log", make_log("short", 0.0, 7).parent_path() / "nowhere"}, "is not there");
   const fs::path there = fresh("there");

@@ -10,6 +10,7 @@
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/random.hpp"
+#include "support/box_world.hpp"
 
 namespace loopmark {
 namespace {
@@ -334,6 +335,94 @@ TEST_F(AlikeStretchesTest, NormalDrivingAmongStretchesThatAreAlikeIsNoLoss) {
   }
   EXPECT_GE(map_->searches, 3);
   EXPECT_LE(map_->searches, 10);
+}
+
+/// A raw log: what a scan shows where it is searched is told, and what it shows without its motion, too.
+class DistortedScansMap final : public PlaceMap {
+ public:
+  explicit DistortedScansMap(const testing_support::BoxWorld& world) : world_(world) {}
+
+  std::vector<PlaceAnswer> search(const PointCloud& /*scan*/, std::size_t places,
+                                  const std::vector<Pose>& believed) const override {
+    if (places > 0) {
+      return answers;
+    }
+    std::vector<PlaceAnswer> again;
+    for (std::size_t i = 0; i < believed.size() && i < undistorted.size(); ++i) {
+      again.push_back({believed[i], Matrix6d::Identity(), undistorted[i]});
+    }
+    std::stable_sort(again.begin(), again.end(),
+                     [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });
+    return again;
+  }
+  std::vector<PlaceAnswer> judge(const PointCloud& /*scan*/, const std::vector<Pose>& /*believed*/) const override {
+    return {};
+  }
+  std::vector<Eigen::Vector3d> points_around(const Eigen::Vector3d& position, double radius) const override {
+    std::vector<Eigen::Vector3d> points;
+    for (double x = 30.0; x <= 90.0; x += 4.0) {
+      const Pose pose = pose_from_yaw(0.0, {x, 0.0, 1.8});
+      for (const Eigen::Vector3f& p : testing_support::sweep(world_, pose, Vector6d::Zero()).points) {
+        const Eigen::Vector3d q = pose * p.cast<double>();
+        if ((q - position).norm() < radius) {
+          points.push_back(q);
+        }
+      }
+    }
+    return points;
+  }
+
+  std::vector<PlaceAnswer> answers;
+  std::vector<double> undistorted;  ///< log-odds of the places believed, in their order
+
+ private:
+  const testing_support::BoxWorld& world_;
+};
+
+class DistortedScansTest : public ::testing::Test {
+ protected:
+  RelocalizedScan add(const Pose& truth, double speed_mps, double stamp_s) {
+    Scan scan;
+    scan.index = next_++;
+    scan.stamp_s = stamp_s;
+    scan.cloud = testing_support::sweep(world_, truth, speed_mps * Vector6d::Unit(0), 0.01, scan.index);
+    return relocalizer_.add(scan);
+  }
+
+  static Pose at(double x) { return pose_from_yaw(0.0, {x, 0.3, 1.8}); }
+  static RelocalizationOptions every_scan() {
+    RelocalizationOptions options;
+    options.search_every_m = 0.0;
+    return options;
+  }
+
+  testing_support::BoxWorld world_ = testing_support::street(120.0, 6);
+  std::shared_ptr<DistortedScansMap> map_ = std::make_shared<DistortedScansMap>(world_);
+  Relocalizer relocalizer_{map_, every_scan(), {}, Compensation::kRawGivenTimes};
+  std::size_t next_ = 0;
+};
+
+TEST_F(DistortedScansTest, TheMotionOfTheFirstScanBehindAGapIsToldByTheMap) {
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(add(at(56.0), 0.0, 0.1 * i).answered) << "it stands, and knows no place";
+  }
+  const Pose truth = at(60.0);  // a second later it drives at 12 m/s: its mean motion tells of 4
+  map_->answers = {{truth * pose_from_yaw(0.01, {-0.8, 0.1, 0.0}), Matrix6d::Identity(), 1.2}};
+  map_->undistorted = {1.3};
+  const RelocalizedScan answer = add(truth, 12.0, 1.2);
+  ASSERT_TRUE(answer.answered) << answer.reason;
+  EXPECT_EQ(answer.state, RelocalizationState::kSearching) << "it is not sure enough to track";
+  EXPECT_LT(pose_error(answer.T_map_lidar, truth).translation_m, 0.15);
+}
+
+TEST_F(DistortedScansTest, OfTwoPlacesTheUndistortedScanTellsWhichItIsAt) {
+  const PlaceAnswer here = {at(58.0), Matrix6d::Identity(), 4.0};
+  const PlaceAnswer there = {at(58.0 + 68.0), Matrix6d::Identity(), 0.0};
+  map_->answers = {here, there};
+  map_->undistorted = {2.0, 1.5};
+  RelocalizedScan answer = add(here.T_map_lidar, 10.0, 0.0);
+  EXPECT_FALSE(answer.answered) << "at either, though the distorted scan told them apart";
+  EXPECT_NEAR(answer.p_correct, 1.0 / (1.0 + std::exp(-0.5)), 0.02);
 }
 
 TEST_F(RelocalizerTest, AnEmptyScanIsNoAnswer) {

@@ -91,6 +91,24 @@ Found PlaceRegistration::at_poses(const PreparedScan& scan, const std::vector<Po
   return joined(std::move(each));
 }
 
+/// Where no submap stands off, the one around the pose speaks for it.
+std::optional<double> PlaceRegistration::verdict(const PreparedScan& scan, const Pose& T_map_lidar) const {
+  const std::vector<std::size_t> judges = submaps_.judges_of(T_map_lidar.translation());
+  if (judges.empty() || submaps_.distance(judges.front(), T_map_lidar.translation()) > options_.place_radius_m) {
+    return std::nullopt;
+  }
+  double sum = 0.0;
+  for (const std::size_t center : judges) {
+    double best = kNotThere;
+    for (const FoundPlace& one : verify_at(scan, center, T_map_lidar)) {
+      const bool same = say_the_same(one.answer.T_map_lidar, T_map_lidar, options_);
+      best = same ? std::max(best, one.voices.registration) : best;
+    }
+    sum += best;
+  }
+  return judges.size() == 1 ? 2.0 * sum : sum;
+}
+
 /// With each answer, what those submaps say of it that see most of what the scan sees: the one by which it was found
 /// may be a hundred metres away.
 Found PlaceRegistration::judged_nearby(const PreparedScan& scan, Found found) const {

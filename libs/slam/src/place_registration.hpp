@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "found_place.hpp"
@@ -29,6 +30,10 @@ class PlaceRegistration {
 
   /// Poses that are believed, judged as those that were searched are.
   Found at_poses(const PreparedScan& scan, const std::vector<Pose>& believed) const;
+
+  /// What the submap around a pose and the one that stands off say of it together: log-odds, at least kNotThere each,
+  /// that compare with those of another pose. Nothing where no submap is around it.
+  std::optional<double> verdict(const PreparedScan& scan, const Pose& T_map_lidar) const;
 
   /// With each distinct answer, what those submaps say of it that see most of what the scan sees: the one by which it
   /// was found may be a hundred metres away.

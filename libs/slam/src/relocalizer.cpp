@@ -17,6 +17,15 @@ constexpr double kWorthCorrecting = -2.0;  ///< log-odds of an answer to a disto
 constexpr std::size_t kRivals = 6;         ///< answers to a distorted scan that are judged again without the distortion
 constexpr double kToldLogOdds = 3.0;       ///< of a pose that was told from outside
 
+/// Log-odds of all answers together.
+double log_of_odds(const std::vector<PlaceAnswer>& answers) {
+  double sum = 0.0;
+  for (const PlaceAnswer& answer : answers) {
+    sum += std::exp(answer.log_odds);
+  }
+  return std::log(sum);
+}
+
 }  // namespace
 
 Relocalizer::Relocalizer(std::shared_ptr<const PlaceMap> map, const RelocalizationOptions& options,
@@ -95,12 +104,14 @@ TrackedScan Relocalizer::follow_own_motion(const Scan& scan, RelocalizedScan& an
   return tracked;
 }
 
-/// The first scan of a moving sensor is distorted by a motion that is not known yet: the surest answer tells it, and is
-/// judged again without the distortion. Returns the motion.
+/// The first scan of a moving sensor is distorted by a motion that is not known yet, and the first one behind a gap by
+/// one that is hardly known: the surest answer tells it, and is judged again without the distortion. Returns the
+/// motion.
 Vector6d Relocalizer::correct_first_scan(const Scan& scan, const TrackedScan& tracked,
                                          std::vector<PlaceAnswer>& answers) {
   State& s = *state_;
-  if (answers.empty() || answers.front().log_odds < kWorthCorrecting || s.committed != 1) {
+  const bool motion_is_known = s.committed > 1 && s.gap_s <= kGapS;
+  if (answers.empty() || answers.front().log_odds < kWorthCorrecting || motion_is_known) {
     return tracked.sweep_velocity;
   }
   const std::optional<SweepInMap> found = s.sweep_in_map(tracked, answers.front().T_map_lidar);
@@ -113,8 +124,8 @@ Vector6d Relocalizer::correct_first_scan(const Scan& scan, const TrackedScan& tr
 }
 
 /// Judges the surest answer without the scan's distortion, at the pose `best` that was found with the motion, and the
-/// others beside it, as far as the same correction carries them: what tells places apart must be asked of the same
-/// scan.
+/// others beside it, as far as the same correction carries them: which of them it is must be asked of the same scan.
+/// Whether it is any of them, the distorted scan may have told better.
 void Relocalizer::judge_again(const PointCloud& cloud, const Pose& best, std::vector<PlaceAnswer>& answers) const {
   const Pose correction = answers.front().T_map_lidar.inverse() * best;
   std::vector<Pose> believed;
@@ -124,13 +135,17 @@ void Relocalizer::judge_again(const PointCloud& cloud, const Pose& best, std::ve
       believed.push_back(answers[i].T_map_lidar);
     }
   }
-  for (const PlaceAnswer& again : state_->map->search(cloud, 0, believed)) {
-    for (std::size_t i = 0; i < believed.size(); ++i) {
-      if (say_the_same(again.T_map_lidar, believed[i], state_->options) && again.log_odds >= answers[i].log_odds) {
-        answers[i].T_map_lidar = again.T_map_lidar;
-        answers[i].log_odds = again.log_odds;
-      }
-    }
+  const std::vector<PlaceAnswer> again = state_->map->search(cloud, 0, believed);
+  if (again.empty() || again.front().log_odds < 0.0) {
+    return;
+  }
+  const double more = std::max(0.0, log_of_odds(answers) - log_of_odds(again));  // what farther submaps said
+  for (std::size_t i = 0; i < believed.size(); ++i) {
+    const auto same = std::find_if(again.begin(), again.end(), [&](const PlaceAnswer& answer) {
+      return say_the_same(answer.T_map_lidar, believed[i], state_->options);
+    });
+    answers[i].T_map_lidar = same == again.end() ? believed[i] : same->T_map_lidar;
+    answers[i].log_odds = same == again.end() ? kNotThere : same->log_odds + more;
   }
   std::stable_sort(answers.begin(), answers.end(),
                    [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });

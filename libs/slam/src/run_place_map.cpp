@@ -14,6 +14,7 @@
 #include "loopmark/places/place_index.hpp"
 #include "place_confidence.hpp"
 #include "place_registration.hpp"
+#include "place_rivals.hpp"
 
 namespace loopmark {
 namespace {
@@ -69,6 +70,7 @@ class RunPlaceMap final : public PlaceMap {
   bool settled(const Found& found) const;
   double signature_lag(const Query& query, const Eigen::Vector3d& position) const;
   std::vector<PlaceAnswer> concluded(Found found, const Query& query) const;
+  std::vector<std::optional<double>> verdicts(const std::vector<PlaceAnswer>& answers, const PreparedScan& scan) const;
 
   RunFolder run_;
   RelocalizationOptions options_;
@@ -189,9 +191,23 @@ std::vector<PlaceAnswer> RunPlaceMap::concluded(Found found, const Query& query)
     one.answer.evidence.insert(one.answer.evidence.begin(), voices.begin(), voices.end());
     answers.push_back(std::move(one.answer));
   }
+  tell_rivals_apart(answers, verdicts(answers, query.scan));
   std::stable_sort(answers.begin(), answers.end(),
                    [](const PlaceAnswer& a, const PlaceAnswer& b) { return a.log_odds > b.log_odds; });
   return answers;
+}
+
+/// What submaps that stand alike say of each rival; of one alone nothing is asked.
+std::vector<std::optional<double>> RunPlaceMap::verdicts(const std::vector<PlaceAnswer>& answers,
+                                                         const PreparedScan& scan) const {
+  const std::vector<std::size_t> rivals = rivals_among(answers);
+  std::vector<std::optional<double>> verdicts(answers.size());
+  if (rivals.size() > 1) {
+    parallel_for(rivals.size(), [&](std::size_t i) {
+      verdicts[rivals[i]] = registration_.verdict(scan, answers[rivals[i]].T_map_lidar);
+    });
+  }
+  return verdicts;
 }
 
 }  // namespace

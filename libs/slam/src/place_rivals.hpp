@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "loopmark/slam/place_beliefs.hpp"
+
+namespace loopmark {
+
+/// The answers, by number, that a scan may be at: of log-odds of -3 or more. Two or more of them are rivals.
+std::vector<std::size_t> rivals_among(const std::vector<PlaceAnswer>& answers);
+
+/// The log-odds of answers tell whether a scan is at one of several places, but hardly at which: each comes from
+/// whatever submap is surest of it, and how sure one can be depends on where it stands and what it sees. Which rival it
+/// is, is told by `verdicts`: for each answer, log-odds that submaps at the same distances from each say together,
+/// or nothing where there are none (then all stays). The odds of all rivals together stay, and are shared by the
+/// verdicts. One rival alone keeps its log-odds.
+void tell_rivals_apart(std::vector<PlaceAnswer>& answers, const std::vector<std::optional<double>>& verdicts);
+
+}  // namespace loopmark
