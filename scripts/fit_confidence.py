@@ -6,10 +6,10 @@
 usage: fit_confidence.py [--check] MODES.txt [MODES.txt ...]     (written by benchmarks/engine_modes)
 
 P_i = exp(l_i) / (1 + sum_j exp(l_j)), l = sum_s share_s (bias_s + sum_k worth_sk(f_k)). The scenes s: little or much
-structure to ask about, sensors near to each other or far apart, few or many beams; a pair may be a share of each (see
-scenes()). Each worth is
+structure to ask about, sensors near to each other or far apart, few or many beams in either scan; a pair may be a share of
+each (see scenes()). Each worth is
 a piecewise linear curve between quantiles of its feature (right and wrong modes weigh alike in them), which may only rise
-(or only fall, or either) and is flat beyond them: no evidence counts for more than it did in any pair seen. Prints
+(or only fall) and is flat beyond them: no evidence counts for more than it did in any pair seen. Prints
 libs/registration/src/confidence_curves.hpp. --check: only a cross-validation that leaves out one file at a time. Needs
 python3-scipy.
 """
@@ -19,16 +19,19 @@ import sys
 import numpy as np
 from scipy import optimize
 
-# +1: more is never worth less, -1: never worth more, 0: either.
+# +1: more is never worth less, -1: never worth more; None: tells the scene and is worth nothing by itself, for pairs of the
+# same place and of different ones are not as frequent in every scene of a fit as in the world.
 SIGNS = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "object_clash": -1, "far_conflict": -1, "contradicted": -1,
          "tall_contradicted": -1, "residual": -1, "objects": 1, "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1,
-         "fewer": 0, "more": 0, "fill": 0, "fill_more": 0}
+         "fewer": None, "more": None, "fill": None, "fill_more": None}
 QUANTILES = [0.01, 0.12, 0.25, 0.4, 0.6, 0.75, 0.88, 0.99]
 RIDGE, ROUGHNESS, STEPS = 0.0001, 0.0002, 800
 LITTLE, MUCH = 5.5, 7.5  # structure of the scan that has fewer, logarithmic
 NEAR_M, FAR_M = 10.0, 50.0  # between the sensors
 SPARSE, DENSE = 1.0, 1.25  # fine patches in a coarse one, logarithmic, of the scan that has fewer
-SCENES = ["little structure", "much structure", "near", "far", "sparse", "dense"]
+BOTH_SPARSE, ONE_DENSE = 1.05, 1.3  # of the other
+SCENES = ["little structure", "much structure", "near", "far", "one is sparse", "both are dense", "both are sparse",
+          "one is dense"]
 CALM = 2.0  # how much a pair of different places weighs against one of the same place
 
 
@@ -68,8 +71,9 @@ def scenes(x):
     much = np.clip((x[:, names.index("fewer")] - LITTLE) / (MUCH - LITTLE), 0.0, 1.0)
     apart_m = -10.0 * np.log(np.maximum(x[:, names.index("near")], 1e-9))
     far = np.clip((apart_m - NEAR_M) / (FAR_M - NEAR_M), 0.0, 1.0)
-    dense = np.clip((x[:, names.index("fill")] - SPARSE) / (DENSE - SPARSE), 0.0, 1.0)
-    return np.stack([1.0 - much, much, 1.0 - far, far, 1.0 - dense, dense], axis=1)
+    both_dense = np.clip((x[:, names.index("fill")] - SPARSE) / (DENSE - SPARSE), 0.0, 1.0)
+    one_dense = np.clip((x[:, names.index("fill_more")] - BOTH_SPARSE) / (ONE_DENSE - BOTH_SPARSE), 0.0, 1.0)
+    return np.stack([1.0 - much, much, 1.0 - far, far, 1.0 - both_dense, both_dense, 1.0 - one_dense, one_dense], axis=1)
 
 
 def design(x, knots, signs):
@@ -109,9 +113,9 @@ def fit(pairs):
         value = -(weight * likelihood).sum() + 0.5 * RIDGE * (w @ w) + 0.5 * ROUGHNESS * (bend ** 2).sum()
         return value, gradient
 
-    either = np.tile(np.repeat([sign == 0 for sign in SIGNS.values()], shape[2]), len(SCENES))
-    start = np.concatenate([np.where(either, 0.0, 0.05), np.full(len(SCENES), -1.0)])
-    bounds = [(None, None) if free else (0.0, None) for free in either] + [(None, None)] * len(SCENES)
+    worthless = np.tile(np.repeat([sign is None for sign in SIGNS.values()], shape[2]), len(SCENES))
+    start = np.concatenate([np.where(worthless, 0.0, 0.05), np.full(len(SCENES), -1.0)])
+    bounds = [(0.0, 0.0) if none else (0.0, None) for none in worthless] + [(None, None)] * len(SCENES)
     found = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": STEPS})
     climbs = found.x[:rises].reshape(shape) * signs
     worth = np.concatenate([np.zeros((*shape[:2], 1)), np.cumsum(climbs, axis=2)], axis=2)
@@ -186,6 +190,8 @@ def print_header(knots, worth, bias):
     print(f"constexpr double kFar = {FAR_M};")
     print(f"constexpr double kSparse = {SPARSE};  // fine patches in a coarse one, logarithmic, of the scan that has fewer")
     print(f"constexpr double kDense = {DENSE};")
+    print(f"constexpr double kBothSparse = {BOTH_SPARSE};  // of the other")
+    print(f"constexpr double kOneDense = {ONE_DENSE};")
     print(f"constexpr std::array<double, kScenes> kBias = {row(bias)};")
     print("constexpr std::array<Worth, kFeatures> kWorth = {{")
     for k, name in enumerate(SIGNS):

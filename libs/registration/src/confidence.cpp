@@ -18,8 +18,9 @@ std::array<double, kScenes> scene_shares(const Features& features) {
   const double apart_m = -10.0 * std::log(std::max(feature(features, "near"), 1e-9));
   const double much = rise(feature(features, "fewer"), kLittle, kMuch);
   const double far = rise(apart_m, kNear, kFar);
-  const double dense = rise(feature(features, "fill"), kSparse, kDense);
-  return {1.0 - much, much, 1.0 - far, far, 1.0 - dense, dense};
+  const double both_dense = rise(feature(features, "fill"), kSparse, kDense);
+  const double one_dense = rise(feature(features, "fill_more"), kBothSparse, kOneDense);
+  return {1.0 - much, much, 1.0 - far, far, 1.0 - both_dense, both_dense, 1.0 - one_dense, one_dense};
 }
 
 /// The value of a feature's curves, mixed by the shares of the scenes.

@@ -10,16 +10,16 @@ namespace {
 
 constexpr double kMayBeThere = -3.0;
 
-double log_of_sum(const std::vector<double>& logs) {
-  const double highest = *std::max_element(logs.begin(), logs.end());
+}  // namespace
+
+double log_of_sum(const std::vector<double>& log_odds) {
+  const double highest = *std::max_element(log_odds.begin(), log_odds.end());
   double sum = 0.0;
-  for (const double x : logs) {
+  for (const double x : log_odds) {
     sum += std::exp(x - highest);
   }
   return highest + std::log(sum);
 }
-
-}  // namespace
 
 std::vector<std::size_t> rivals_among(const std::vector<PlaceAnswer>& answers) {
   std::vector<std::size_t> rivals;

@@ -10,6 +10,9 @@
 
 namespace loopmark {
 
+/// Log-odds of one or more together: the logarithm of the sum of their odds.
+double log_of_sum(const std::vector<double>& log_odds);
+
 /// The answers, by number, that a scan may be at: of log-odds of -3 or more. Two or more of them are rivals.
 std::vector<std::size_t> rivals_among(const std::vector<PlaceAnswer>& answers);
 

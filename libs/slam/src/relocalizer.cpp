@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "place_rivals.hpp"
 #include "relocalizer_state.hpp"
 
 namespace loopmark {
@@ -17,13 +18,12 @@ constexpr double kWorthCorrecting = -2.0;  ///< log-odds of an answer to a disto
 constexpr std::size_t kRivals = 6;         ///< answers to a distorted scan that are judged again without the distortion
 constexpr double kToldLogOdds = 3.0;       ///< of a pose that was told from outside
 
-/// Log-odds of all answers together.
 double log_of_odds(const std::vector<PlaceAnswer>& answers) {
-  double sum = 0.0;
+  std::vector<double> each;
   for (const PlaceAnswer& answer : answers) {
-    sum += std::exp(answer.log_odds);
+    each.push_back(answer.log_odds);
   }
-  return std::log(sum);
+  return log_of_sum(each);
 }
 
 }  // namespace
