@@ -36,12 +36,12 @@ class Drill : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     fs::create_directories(scratch("").parent_path());
-    log_ = make_log("log", 0.0, 0);
-    run_ = fresh("run");
+    log_of_day = make_log("log", 0.0, 0);
+    run_of_day = fresh("run");
     const ProgramResult mapped =
-        run_program({"map", log_, "-o", run_, "-q", "--set", testing_support::kPassingLogSetting});
+        run_program({"map", log_of_day, "-o", run_of_day, "-q", "--set", testing_support::kPassingLogSetting});
     ASSERT_EQ(mapped.exit_code, 0) << mapped.output;
-    const auto summary = nlohmann::json::parse(read_file(run_ / "summary.json"));
+    const auto summary = nlohmann::json::parse(read_file(run_of_day / "summary.json"));
     ASSERT_LT(summary["ate_rmse_m"], 0.1) << "the map itself";
   }
 
@@ -63,13 +63,13 @@ class Drill : public ::testing::Test {
     return run_program(words);
   }
 
-  static inline fs::path log_;
-  static inline fs::path run_;
+  static inline fs::path log_of_day;
+  static inline fs::path run_of_day;
 };
 
 TEST_F(Drill, ReportsEveryEventAndNoneIsWrong) {
   const fs::path out = fresh("out");
-  const ProgramResult result = drill(run_, out);
+  const ProgramResult result = drill(run_of_day, out);
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, testing::HasSubstr("teleport"));
   const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
@@ -86,20 +86,20 @@ TEST_F(Drill, ASeedRepeatsItByteForByteAtAnyNumberOfThreads) {
   const fs::path one = fresh("one");
   const fs::path two = fresh("two");
   const fs::path other = fresh("other");
-  ASSERT_EQ(drill(run_, one, {"--seed", "3", "--threads", "1"}).exit_code, 0);
-  ASSERT_EQ(drill(run_, two, {"--seed", "3", "--threads", "2"}).exit_code, 0);
+  ASSERT_EQ(drill(run_of_day, one, {"--seed", "3", "--threads", "1"}).exit_code, 0);
+  ASSERT_EQ(drill(run_of_day, two, {"--seed", "3", "--threads", "2"}).exit_code, 0);
   for (const char* const file : {"drill.csv", "summary.json", "report.html", "config.yaml"}) {
     EXPECT_EQ(sha256_of_file(one / file), sha256_of_file(two / file)) << file;
   }
-  ASSERT_EQ(drill(run_, other, {"--seed", "4"}).exit_code, 0);
+  ASSERT_EQ(drill(run_of_day, other, {"--seed", "4"}).exit_code, 0);
   EXPECT_NE(sha256_of_file(one / "drill.csv"), sha256_of_file(other / "drill.csv"));
 }
 
 TEST_F(Drill, EventsThatAreChosenAreTheSameAlone) {
   const fs::path all = fresh("all");
   const fs::path some = fresh("some");
-  ASSERT_EQ(drill(run_, all).exit_code, 0);
-  ASSERT_EQ(drill(run_, some, {"--only", "4,1"}).exit_code, 0);
+  ASSERT_EQ(drill(run_of_day, all).exit_code, 0);
+  ASSERT_EQ(drill(run_of_day, some, {"--only", "4,1"}).exit_code, 0);
   const auto rows = [](const fs::path& folder) {
     std::istringstream lines(read_file(folder / "drill.csv"));
     std::vector<std::string> found;
@@ -117,22 +117,22 @@ TEST_F(Drill, GoesOnInAnotherDriveWhoseTruthIsKnown) {
   const fs::path drive = make_log("drive", 1.5, 1000);
   const fs::path out = fresh("with_drive");
   const ProgramResult result =
-      drill(run_, out, {"--drive", drive, "--events", "2", "--set", "drill.disturbances=[other-drive]"});
+      drill(run_of_day, out, {"--drive", drive, "--events", "2", "--set", "drill.disturbances=[other-drive]"});
   ASSERT_EQ(result.exit_code, 0) << result.output;
   const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
   EXPECT_EQ(summary["by"]["other-drive"]["events"], 2);
   EXPECT_EQ(summary["by"]["other-drive"]["wrong"], 0) << read_file(out / "drill.csv");
 
   fs::remove(drive / "poses.txt");
-  const ProgramResult refused = drill(run_, fresh("refused"), {"--drive", drive});
+  const ProgramResult refused = drill(run_of_day, fresh("refused"), {"--drive", drive});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.output, testing::HasSubstr("--truth"));
 }
 
 TEST_F(Drill, MapsALogFirst) {
   const fs::path out = fresh("from_log");
-  const ProgramResult result =
-      drill(log_, out, {"--events", "2", "--set", testing_support::kPassingLogSetting, "--set", "drill.limit_s=5"});
+  const ProgramResult result = drill(
+      log_of_day, out, {"--events", "2", "--set", testing_support::kPassingLogSetting, "--set", "drill.limit_s=5"});
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_TRUE(fs::exists(out / "map" / "trajectory.tum"));
   EXPECT_TRUE(fs::exists(out / "report.html"));
@@ -148,17 +148,17 @@ TEST_F(Drill, BadInputIsRefusedAndNothingIsLeft) {
     EXPECT_FALSE(fs::exists(out.string() + ".partial"));
   };
   expect_refusal(scratch("nowhere"), {}, "is not there");
-  expect_refusal(run_, {"--events", "0"}, "--events");
-  expect_refusal(run_, {"--set", "drill.outages_s=[-1]"}, "outages_s");
-  expect_refusal(run_, {"--set", "drill.disturbances=[flood]"}, "flood");
-  expect_refusal(run_, {"--set", "drill.disturbances=[other-drive]"}, "too short");
-  expect_refusal(run_, {"--truth", log_ / "poses.txt"}, "--drive");
-  expect_refusal(run_, {"--only", "6"}, "no event 6");
-  expect_refusal(run_, {"--within", "20"}, "limit_s");
-  expect_refusal(run_, {"--log", make_log("short", 0.0, 7).parent_path() / "nowhere"}, "is not there");
+  expect_refusal(run_of_day, {"--events", "0"}, "--events");
+  expect_refusal(run_of_day, {"--set", "drill.outages_s=[-1]"}, "outages_s");
+  expect_refusal(run_of_day, {"--set", "drill.disturbances=[flood]"}, "flood");
+  expect_refusal(run_of_day, {"--set", "drill.disturbances=[other-drive]"}, "too short");
+  expect_refusal(run_of_day, {"--truth", log_of_day / "poses.txt"}, "--drive");
+  expect_refusal(run_of_day, {"--only", "6"}, "no event 6");
+  expect_refusal(run_of_day, {"--within", "20"}, "limit_s");
+  expect_refusal(run_of_day, {"--log", make_log("short", 0.0, 7).parent_path() / "nowhere"}, "is not there");
   const fs::path there = fresh("there");
   fs::create_directories(there);
-  EXPECT_EQ(drill(run_, there).exit_code, 2);
+  EXPECT_EQ(drill(run_of_day, there).exit_code, 2);
   EXPECT_TRUE(fs::is_empty(there));
 }
 

@@ -12,6 +12,8 @@ namespace loopmark::kernels {
 constexpr std::size_t kChunk = 16;
 constexpr std::size_t kChunks = 8;
 constexpr std::size_t kLeaf = kChunk * kChunks;
+/// Queries at a time: the words of the targets are loaded once for all of them.
+constexpr std::size_t kQueries = 4;
 /// Pairs of coordinates that are looked at first: they tell most of a distance, and most are too far already.
 constexpr std::size_t kHeadPairs = 6;
 

@@ -9,8 +9,6 @@
 namespace loopmark::kernels {
 namespace {
 
-constexpr std::size_t kQueries = 4;  // at a time: the words of the targets are loaded once for all of them
-
 /// Subtracts 2 a b for pairs [from, to): |b|^2 - 2 a b.
 template <class Isa>
 [[gnu::always_inline]] inline void add_products(const std::int32_t* queries, const std::int32_t* targets,

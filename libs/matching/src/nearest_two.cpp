@@ -17,7 +17,6 @@ namespace {
 
 using kernels::kChunk;
 using kernels::kChunks;
-using kernels::kLeaf;
 
 /// One cloud and what its places have found in the other.
 struct Side {
