@@ -13,7 +13,7 @@ namespace loopmark {
 namespace {
 
 constexpr std::size_t kLeastPoints = 100;  // of a scan that can be used, after thinning
-constexpr double kWorthAgreeing = 0.3;     // P(correct) of an answer that another one may confirm
+constexpr double kWorthAgreeing = 0.05;    // P(correct) of an answer that another one may confirm
 
 bool same_place(const Pose& a, const Pose& b) {
   const PoseError error = pose_error(a, b);
