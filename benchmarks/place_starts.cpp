@@ -121,6 +121,15 @@ std::vector<std::size_t> numbers(const std::string& text) {
   return all;
 }
 
+/// `count` numbers at even steps below `end`.
+std::vector<std::size_t> spread(std::size_t count, std::size_t end) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(i * end / count);
+  }
+  return all;
+}
+
 int run(int argc, char** argv) {
   const RunFolder folder = RunFolder::open(argv[1]);
   const SolvedMap solved = solve_map(read_scan_records(folder), read_loop_records(folder), {}, {});
@@ -136,12 +145,12 @@ int run(int argc, char** argv) {
   while (usable > 1 && stage.log->stamp_s(usable - 1) > end_s) {
     --usable;
   }
-  std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i < std::min(count, usable); ++i) {
-    starts.push_back(i * usable / std::min(count, usable));
-  }
-  if (argc > 8) {
-    starts = numbers(argv[8]);
+  const std::vector<std::size_t> starts = argc > 8 ? numbers(argv[8]) : spread(std::min(count, usable), usable);
+  for (const std::size_t start : starts) {
+    if (start >= stage.log->size()) {
+      std::fprintf(stderr, "place_starts: there is no scan %zu; %s has %zu\n", start, argv[3], stage.log->size());
+      return 2;
+    }
   }
   std::ofstream out(argv[5]);
   std::mutex mutex;

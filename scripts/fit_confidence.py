@@ -7,10 +7,9 @@ usage: fit_confidence.py [--check] MODES.txt [MODES.txt ...]     (written by ben
 
 P_i = exp(l_i) / (1 + sum_j exp(l_j)), l = sum_s share_s (bias_s + sum_k worth_sk(f_k)). The scenes s: little or much
 structure to ask about, sensors near to each other or far apart, few or many beams in either scan; a pair may be a share of
-each (see scenes()). Each worth is
-a piecewise linear curve between quantiles of its feature (right and wrong modes weigh alike in them), which may only rise
-(or only fall) and is flat beyond them: no evidence counts for more than it did in any pair seen. Prints
-libs/registration/src/confidence_curves.hpp. --check: only a cross-validation that leaves out one file at a time. Needs
+each (see scenes()). Each worth is a piecewise linear curve between quantiles of its feature (right and wrong modes weigh alike
+in them), which may only rise (or only fall) and is flat beyond them: no evidence counts for more than it did in any pair seen.
+Prints libs/registration/src/confidence_curves.hpp. --check: only a cross-validation that leaves out one file at a time. Needs
 python3-scipy.
 """
 import os
@@ -19,11 +18,12 @@ import sys
 import numpy as np
 from scipy import optimize
 
-# +1: more is never worth less, -1: never worth more; None: tells the scene and is worth nothing by itself, for pairs of the
-# same place and of different ones are not as frequent in every scene of a fit as in the world.
+# +1: more is never worth less, -1: never worth more.
 SIGNS = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "object_clash": -1, "far_conflict": -1, "contradicted": -1,
-         "tall_contradicted": -1, "residual": -1, "objects": 1, "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1,
-         "fewer": None, "more": None, "fill": None, "fill_more": None}
+         "tall_contradicted": -1, "residual": -1, "objects": 1, "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1}
+# What tells the scene, and is worth nothing by itself: a fit has not as many pairs of the same place in every scene as the world.
+OF_SCENE = ["fewer", "fill", "fill_more"]
+COLUMNS = [*SIGNS, *OF_SCENE]
 QUANTILES = [0.01, 0.12, 0.25, 0.4, 0.6, 0.75, 0.88, 0.99]
 RIDGE, ROUGHNESS, STEPS = 0.0001, 0.0002, 800
 LITTLE, MUCH = 5.5, 7.5  # structure of the scan that has fewer, logarithmic
@@ -42,7 +42,7 @@ def load(files):
             pair, right, negative, *evidence = line.split()
             entry = pairs.setdefault((number, pair), {"file": name, "negative": negative == "1", "x": [], "right": []})
             values = dict(item.split("=") for item in evidence)
-            entry["x"].append([float(values[key]) for key in SIGNS])
+            entry["x"].append([float(values[key]) for key in COLUMNS])
             entry["right"].append(int(right))
     return list(pairs.values())
 
@@ -61,18 +61,18 @@ def knots_of(pairs):
 def ramps(x, knots):
     """Each feature as the shares of its segments that it has climbed: (rows, features, segments)."""
     low, high = knots[:, :-1], knots[:, 1:]
-    return np.clip((np.asarray(x)[:, :, None] - low) / (high - low), 0.0, 1.0)
+    return np.clip((np.asarray(x)[:, :len(SIGNS), None] - low) / (high - low), 0.0, 1.0)
 
 
 def scenes(x):
     """How much of each scene the rows are: (rows, scenes). Each two of them are shares of one."""
     x = np.asarray(x)
-    names = list(SIGNS)
-    much = np.clip((x[:, names.index("fewer")] - LITTLE) / (MUCH - LITTLE), 0.0, 1.0)
-    apart_m = -10.0 * np.log(np.maximum(x[:, names.index("near")], 1e-9))
+    column = lambda name: x[:, COLUMNS.index(name)]
+    much = np.clip((column("fewer") - LITTLE) / (MUCH - LITTLE), 0.0, 1.0)
+    apart_m = -10.0 * np.log(np.maximum(column("near"), 1e-9))
     far = np.clip((apart_m - NEAR_M) / (FAR_M - NEAR_M), 0.0, 1.0)
-    both_dense = np.clip((x[:, names.index("fill")] - SPARSE) / (DENSE - SPARSE), 0.0, 1.0)
-    one_dense = np.clip((x[:, names.index("fill_more")] - BOTH_SPARSE) / (ONE_DENSE - BOTH_SPARSE), 0.0, 1.0)
+    both_dense = np.clip((column("fill") - SPARSE) / (DENSE - SPARSE), 0.0, 1.0)
+    one_dense = np.clip((column("fill_more") - BOTH_SPARSE) / (ONE_DENSE - BOTH_SPARSE), 0.0, 1.0)
     return np.stack([1.0 - much, much, 1.0 - far, far, 1.0 - both_dense, both_dense, 1.0 - one_dense, one_dense], axis=1)
 
 
@@ -86,7 +86,7 @@ def design(x, knots, signs):
 def fit(pairs):
     knots = knots_of(pairs)
     shape = (len(SCENES), len(SIGNS), len(QUANTILES) - 1)
-    signs = np.array([sign or 1 for sign in SIGNS.values()])[:, None]
+    signs = np.array(list(SIGNS.values()))[:, None]
     rows = design(np.concatenate([p["x"] for p in pairs]), knots, signs)
     sizes = [len(p["x"]) for p in pairs]
     pair_of = np.repeat(np.arange(len(pairs)), sizes)
@@ -113,9 +113,8 @@ def fit(pairs):
         value = -(weight * likelihood).sum() + 0.5 * RIDGE * (w @ w) + 0.5 * ROUGHNESS * (bend ** 2).sum()
         return value, gradient
 
-    worthless = np.tile(np.repeat([sign is None for sign in SIGNS.values()], shape[2]), len(SCENES))
-    start = np.concatenate([np.where(worthless, 0.0, 0.05), np.full(len(SCENES), -1.0)])
-    bounds = [(0.0, 0.0) if none else (0.0, None) for none in worthless] + [(None, None)] * len(SCENES)
+    start = np.concatenate([np.full(rises, 0.05), np.full(len(SCENES), -1.0)])
+    bounds = [(0.0, None)] * rises + [(None, None)] * len(SCENES)
     found = optimize.minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": STEPS})
     climbs = found.x[:rises].reshape(shape) * signs
     worth = np.concatenate([np.zeros((*shape[:2], 1)), np.cumsum(climbs, axis=2)], axis=2)
@@ -193,7 +192,7 @@ def print_header(knots, worth, bias):
     print(f"constexpr double kBothSparse = {BOTH_SPARSE};  // of the other")
     print(f"constexpr double kOneDense = {ONE_DENSE};")
     print(f"constexpr std::array<double, kScenes> kBias = {row(bias)};")
-    print("constexpr std::array<Worth, kFeatures> kWorth = {{")
+    print("constexpr std::array<Worth, kWeighed> kWorth = {{")
     for k, name in enumerate(SIGNS):
         curves = ",\n      ".join(row(worth[s, k]) for s in range(len(SCENES)))
         print(f"    {{{row(knots[k])},  // {name}\n     {{{{{curves}}}}}}},")

@@ -27,21 +27,13 @@ struct Plain {
 
 }  // namespace
 
-bool processor_has_avx512() {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx512bw") != 0;
+bool processor_has_avx512() { return __builtin_cpu_supports("avx512bw") != 0; }
+bool processor_has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
 #else
-  return false;
+bool processor_has_avx512() { return false; }
+bool processor_has_avx2() { return false; }
 #endif
-}
-
-bool processor_has_avx2() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
-#endif
-}
 
 ScanChunks scan_chunks_plain() { return scan<Plain>; }
 

@@ -49,7 +49,7 @@ double log_odds(const Features& features) {
   for (std::size_t s = 0; s < kScenes; ++s) {
     sum += shares[s] * kBias[s];
   }
-  for (std::size_t i = 0; i < kFeatures; ++i) {
+  for (std::size_t i = 0; i < kWeighed; ++i) {
     sum += worth_of(kWorth[i], features[i], shares);
   }
   const bool fringe = feature(features, "agreement") < kLeastAgreement && feature(features, "ground") < kLeastGround;

@@ -12,8 +12,7 @@ namespace loopmark {
 
 /// Kinds of scene in which the same evidence is worth more or less: little structure to ask about, much of it; sensors
 /// near to each other, far apart; one scan of few beams, none; both of few, not both. What a beam misses 50 m away says
-/// less than what it misses beside the car, and what sixteen beams miss less than what sixty-four do. The numbers that
-/// tell the scene are worth nothing by themselves.
+/// less than what it misses beside the car, and what sixteen beams miss less than what sixty-four do.
 constexpr std::size_t kScenes = 8;
 
 /// What a feature is worth in each scene: curves through eight points, flat beyond them.

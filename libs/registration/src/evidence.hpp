@@ -35,6 +35,7 @@ struct Testimony {
 };
 
 constexpr std::size_t kFeatures = 18;
+constexpr std::size_t kWeighed = 14;  ///< of these, the first, are evidence; those behind them describe the pair
 using Features = std::array<double, kFeatures>;
 /// agreement: share of the structure that is met. absence, clash, conflict: what speaks against, logarithmic. objects:
 /// how many are met, logarithmic. contradicted: cells, logarithmic. peak: height of the correlation peak; rise: against
