@@ -29,6 +29,7 @@ constexpr const char* kExamples = R"(Examples:
   loopmark drill runs/day1 -o drill                        cuts tracking in the map of a run 40 times and tells what came of it
   loopmark drill drives/day1 -o drill                      a log: maps it first (into drill/map)
   loopmark drill runs/day1 -o drill --events 200 --seed 7  the same seed gives the same bytes
+  loopmark drill runs/day1 -o again --only 17,42           of the 40 those that drill.csv numbers 17 and 42
   loopmark drill runs/day1 -o drill --drive drives/day2    also goes on in another drive of the same place
   loopmark drill runs/day1 -o drill --set drill.outages_s=[0.5,5,60] --set relocalization.tracking_p=0.95
   loopmark drill runs/day1 -o drill --log /elsewhere/day1  when the run's log has moved
