@@ -7,20 +7,20 @@
 #include <cmath>
 
 #include "loopmark/core/random.hpp"
-#include "loopmark/evaluation/balanced_selection.hpp"
+#include "loopmark/pair_sets/balanced_selection.hpp"
 
 namespace loopmark::benchmarks {
 namespace {
 
-std::vector<RegistrationPair> candidates(std::size_t count) {
+std::vector<pair_sets::RegistrationPair> candidates(std::size_t count) {
   Rng rng(1);
-  std::vector<RegistrationPair> pool;
+  std::vector<pair_sets::RegistrationPair> pool;
   for (std::size_t i = 0; i < count; ++i) {
     const double yaw = 0.3 * std::pow(rng.normal(), 3);
     const Eigen::Vector3d t(-90.0 * rng.uniform() * rng.uniform(), 3.0 * rng.normal(), 0.3 * rng.normal());
     const int session = static_cast<int>(i % 20);
     const int frame = static_cast<int>(i);
-    pool.push_back(make_pair({session, frame, frame + 1, session}, pose_from_yaw(yaw, t), 0.5, 0.5));
+    pool.push_back(pair_sets::make_pair({session, frame, frame + 1, session}, pose_from_yaw(yaw, t), 0.5, 0.5));
   }
   return pool;
 }
@@ -29,7 +29,7 @@ void select(benchmark::State& state) {
   const auto pool = candidates(static_cast<std::size_t>(state.range(0)));
   std::size_t chosen = 0;
   for (auto _ : state) {
-    chosen = select_balanced(pool, static_cast<std::size_t>(state.range(1)), {}).size();
+    chosen = pair_sets::select_balanced(pool, static_cast<std::size_t>(state.range(1)), {}).size();
   }
   state.counters["chosen"] = static_cast<double>(chosen);
 }

@@ -7,8 +7,8 @@
 
 Cuts of so many seconds are spread evenly over the drive. The jump takes out so many seconds in the middle and closes up
 the stamps, so that the sensor seems to be elsewhere from one scan to the next. The cuts come in the order in which, by
-the true poses, the pieces share most places: parts that share none cannot become one map. It says how many scans the
-weakest tie between pieces has (scans within 8 m of another piece). Needs nothing but Python.
+the true poses, the segments share most places: parts that share none cannot become one map. It says how many scans the
+weakest tie between segments has (scans within 8 m of another segment). Needs nothing but Python.
 """
 import argparse
 import itertools
@@ -46,17 +46,17 @@ def near_scans(positions, every, near_m=8.0):
 
 
 def weakest_tie(kept, near, every):
-    """Scans that hold the pieces together where they hold together least: on the strongest ties that join all."""
-    piece, pieces = {kept[0]: 0}, 1
+    """Scans that hold the segments together where they hold together least: on the strongest ties that join all."""
+    segment, segments = {kept[0]: 0}, 1
     for before, scan in zip(kept, kept[1:]):
-        pieces += scan != before + 1
-        piece[scan] = pieces - 1
+        segments += scan != before + 1
+        segment[scan] = segments - 1
     ties = {}
     for i, j in near:
-        if i in piece and j in piece and piece[i] != piece[j]:
-            ties.setdefault(tuple(sorted((piece[i], piece[j]))), set()).add(i)
+        if i in segment and j in segment and segment[i] != segment[j]:
+            ties.setdefault(tuple(sorted((segment[i], segment[j]))), set()).add(i)
     joined, weakest = {0}, len(kept)
-    while len(joined) < pieces:
+    while len(joined) < segments:
         ways = [(len(scans), pair) for pair, scans in ties.items() if (pair[0] in joined) != (pair[1] in joined)]
         if not ways:
             return 0
@@ -93,7 +93,7 @@ def main():
     for name in ("calib.txt", "sweep.txt"):
         shutil.copy(a.log / name, a.cut / name)
     print(f"{a.cut}: {len(kept)} of {len(stamps)} scans, cuts of {', '.join(f'{c:g}' for c in cuts)} s, "
-          f"the weakest tie between pieces has {tie} scans")
+          f"the weakest tie between segments has {tie} scans")
 
 
 if __name__ == "__main__":

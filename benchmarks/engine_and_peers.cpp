@@ -31,9 +31,9 @@ struct Arguments {
   std::string libraries = "open3d,pcl";
 };
 
-AlgorithmList competitors(const std::string& libraries) {
-  AlgorithmList list;
-  list.push_back(make_engine_algorithm({}, config::dump(EngineOptions())));
+evaluation::AlgorithmList competitors(const std::string& libraries) {
+  evaluation::AlgorithmList list;
+  list.push_back(evaluation::make_engine_algorithm({}, config::dump(registration::EngineOptions())));
   for (const auto& library : {open3d_library(), pcl_library()}) {
     if (library && libraries.find(library->name) != std::string::npos) {
       add_peers(list, *library);
@@ -51,14 +51,14 @@ void keep_every(std::vector<T>& things, std::size_t every) {
   things = std::move(kept);
 }
 
-ExperimentTask make_task(const Arguments& a, bool perturbed) {
-  ExperimentTask task;
-  task.set.pairs = read_pair_set(a.set / (perturbed ? "pairs_perturbed.txt" : "pairs.txt"));
+evaluation::ExperimentTask make_task(const Arguments& a, bool perturbed) {
+  evaluation::ExperimentTask task;
+  task.set.pairs = pair_sets::read_pair_set(a.set / (perturbed ? "pairs_perturbed.txt" : "pairs.txt"));
   task.set_name = perturbed ? "perturbed pairs" : "natural pairs";
   if (perturbed) {
-    task.perturbations = read_perturbations(a.set / "perturb.txt", task.set.pairs);
+    task.perturbations = pair_sets::read_perturbations(a.set / "perturb.txt", task.set.pairs);
   } else if (fs::exists(a.set / "negatives.txt")) {
-    task.set.negatives = read_negatives(a.set / "negatives.txt");
+    task.set.negatives = pair_sets::read_negatives(a.set / "negatives.txt");
   }
   keep_every(task.set.pairs, a.every);
   keep_every(task.set.negatives, a.every);
@@ -66,30 +66,30 @@ ExperimentTask make_task(const Arguments& a, bool perturbed) {
   return task;
 }
 
-void print_tables(const StoredResult& result) {
-  const auto summaries = summarise_all(result.outcomes, result.experiment.algorithms, result.set);
-  std::vector<TextTable> tables = {
-      overview_table(result.experiment, summaries),
-      bins_table(summaries, "by_overlap", "Recall by symmetric overlap", &AlgorithmSummary::by_overlap),
-      times_table(summaries)};
+void print_tables(const evaluation::StoredResult& result) {
+  const auto summaries = evaluation::summarise_all(result.outcomes, result.experiment.algorithms, result.set);
+  std::vector<text::TextTable> tables = {evaluation::overview_table(result.experiment, summaries),
+                                         evaluation::bins_table(summaries, "by_overlap", "Recall by symmetric overlap",
+                                                                &evaluation::AlgorithmSummary::by_overlap),
+                                         evaluation::times_table(summaries)};
   if (!result.set.negatives.empty()) {
-    tables.insert(tables.begin() + 2, certainty_table(summaries));
+    tables.insert(tables.begin() + 2, evaluation::certainty_table(summaries));
   }
-  for (const TextTable& table : tables) {
-    std::printf("%s\n", to_markdown(table).c_str());
+  for (const text::TextTable& table : tables) {
+    std::printf("%s\n", text::to_markdown(table).c_str());
   }
   std::fflush(stdout);
 }
 
 void run_set(const Arguments& a, bool perturbed) {
-  const std::shared_ptr<Dataset> data = open_dataset(a.logs, a.set / "sessions.txt");
-  const ScanLoader load = [data](int session, int frame) { return data->load(session, frame); };
-  ExperimentTask task = make_task(a, perturbed);
-  match_set_to_scans(task, load);
+  const std::shared_ptr<io::Dataset> data = io::open_dataset(a.logs, a.set / "sessions.txt");
+  const evaluation::ScanLoader load = [data](int session, int frame) { return data->load(session, frame); };
+  evaluation::ExperimentTask task = make_task(a, perturbed);
+  evaluation::match_set_to_scans(task, load);
   const fs::path folder = a.out / (perturbed ? "perturbed" : "natural");
-  run_experiment(task, competitors(a.libraries), load, folder);
-  const StoredResult result = read_result(folder);
-  write_products(folder, result);
+  evaluation::run_experiment(task, competitors(a.libraries), load, folder);
+  const evaluation::StoredResult result = evaluation::read_result(folder);
+  evaluation::write_products(folder, result);
   print_tables(result);
 }
 

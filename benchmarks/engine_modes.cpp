@@ -10,18 +10,18 @@
 
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/progress.hpp"
-#include "loopmark/evaluation/pair_set.hpp"
 #include "loopmark/io/dataset.hpp"
+#include "loopmark/pair_sets/pair_set.hpp"
 #include "loopmark/registration/engine.hpp"
 
 namespace {
 
 using namespace loopmark;
 
-void write_modes(std::ofstream& out, std::size_t pair, const RegistrationResult& result, const Pose& truth,
-                 bool negative) {
-  for (const RegistrationMode& mode : result.modes) {
-    const PoseError error = pose_error(mode.T_target_source, truth);
+void write_modes(std::ofstream& out, std::size_t pair, const registration::RegistrationResult& result,
+                 const loopmark::Pose& truth, bool negative) {
+  for (const registration::RegistrationMode& mode : result.modes) {
+    const loopmark::PoseError error = loopmark::pose_error(mode.T_target_source, truth);
     const bool right = !negative && error.rotation_deg < 5.0 && error.translation_m < 0.6;
     out << pair << ' ' << right << ' ' << negative;
     for (const auto& [name, value] : mode.evidence) {
@@ -33,28 +33,29 @@ void write_modes(std::ofstream& out, std::size_t pair, const RegistrationResult&
 
 int run(int argc, char** argv) {
   const std::filesystem::path set = argv[1];
-  auto pairs = read_pair_set(set);
-  const std::vector<Pose> moved =
-      argc > 5 && argv[5][0] != '-' ? read_perturbations(argv[5], pairs) : std::vector<Pose>();
+  auto pairs = pair_sets::read_pair_set(set);
+  const std::vector<loopmark::Pose> moved =
+      argc > 5 && argv[5][0] != '-' ? pair_sets::read_perturbations(argv[5], pairs) : std::vector<loopmark::Pose>();
   const std::size_t positives = pairs.size();
   if (argc > 4 && argv[4][0] != '-') {
-    for (const PairKey& key : read_negatives(argv[4])) {
-      pairs.push_back(make_pair(key, Pose::Identity(), 0.0, 0.0));
+    for (const pair_sets::PairKey& key : pair_sets::read_negatives(argv[4])) {
+      pairs.push_back(pair_sets::make_pair(key, loopmark::Pose::Identity(), 0.0, 0.0));
     }
   }
   const std::size_t every = argc > 6 ? static_cast<std::size_t>(std::atoi(argv[6])) : 1;
-  const auto data = open_dataset(argv[2], set.parent_path() / "sessions.txt");
-  const EngineOptions options;
+  const auto data = io::open_dataset(argv[2], set.parent_path() / "sessions.txt");
+  const registration::EngineOptions options;
   std::ofstream out(argv[3]);
-  Progress progress("pairs", pairs.size() / every);
+  loopmark::Progress progress("pairs", pairs.size() / every);
   for (std::size_t i = 0; i < pairs.size(); i += every, progress.add()) {
-    const PairKey& key = pairs[i].key;
-    PointCloud source = data->load(key.session, key.source);
+    const pair_sets::PairKey& key = pairs[i].key;
+    loopmark::PointCloud source = data->load(key.session, key.source);
     if (i < moved.size()) {
-      source = transformed(source, moved[i]);
+      source = loopmark::transformed(source, moved[i]);
     }
-    const PointCloud target = data->load(key.target_session, key.target);
-    const auto result = register_scans(prepare_scan(source, options), prepare_scan(target, options), options);
+    const loopmark::PointCloud target = data->load(key.target_session, key.target);
+    const auto result = registration::register_scans(registration::prepare_scan(source, options),
+                                                     registration::prepare_scan(target, options), options);
     write_modes(out, i, result, pairs[i].T_target_source, i >= positives);
   }
   return 0;

@@ -23,7 +23,7 @@ namespace {
 
 struct Scan3 {
   std::vector<Eigen::Vector3f> points, normals;
-  DescriptorMatrix descriptors;
+  search::DescriptorMatrix descriptors;
 };
 
 constexpr double kVoxel = 0.3;
@@ -40,17 +40,17 @@ std::vector<Eigen::Vector3f> load(std::size_t which) {
   }
   const std::string both = given;
   const std::size_t comma = both.find(',');
-  return read_point_file(which == 0 ? both.substr(0, comma) : both.substr(comma + 1)).cloud.points;
+  return io::read_point_file(which == 0 ? both.substr(0, comma) : both.substr(comma + 1)).cloud.points;
 }
 
 Scan3 prepare(std::size_t which) {
   Scan3 scan;
   const auto raw = load(which);
   std::vector<Eigen::Vector3f> small;
-  for (const std::size_t i : voxel_first_indices(raw, kVoxel)) {
+  for (const std::size_t i : cloud::voxel_first_indices(raw, kVoxel)) {
     small.push_back(raw[i]);
   }
-  const auto normals = estimate_normals(small, {}).vectors;
+  const auto normals = features::estimate_normals(small, {}).vectors;
   for (std::size_t i = 0; i < small.size(); ++i) {
     if (!normals[i].isZero()) {
       scan.points.push_back(small[i]);
@@ -62,7 +62,7 @@ Scan3 prepare(std::size_t which) {
   for (std::size_t k = 0; k < count; ++k) {
     wanted.push_back(k * scan.points.size() / count);
   }
-  scan.descriptors = fpfh(scan.points, scan.normals, {}, wanted);
+  scan.descriptors = features::fpfh(scan.points, scan.normals, {}, wanted);
   return scan;
 }
 
@@ -74,7 +74,7 @@ const Scan3& scan(std::size_t which) {
 void ours_normals(benchmark::State& state) {
   set_thread_count(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(estimate_normals(scan(0).points, {}));
+    benchmark::DoNotOptimize(features::estimate_normals(scan(0).points, {}));
   }
   state.counters["points"] = static_cast<double>(scan(0).points.size());
 }
@@ -82,21 +82,22 @@ void ours_normals(benchmark::State& state) {
 void ours_fpfh(benchmark::State& state) {
   set_thread_count(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(fpfh(scan(0).points, scan(0).normals, {}));
+    benchmark::DoNotOptimize(features::fpfh(scan(0).points, scan(0).normals, {}));
   }
 }
 
 void ours_nearest_two(benchmark::State& state) {
   set_thread_count(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(nearest_two(scan(0).descriptors, scan(1).descriptors));
+    benchmark::DoNotOptimize(matching::nearest_two(scan(0).descriptors, scan(1).descriptors));
   }
   state.counters["rows"] = static_cast<double>(scan(0).descriptors.rows());
 }
 
 void pcl_fpfh(benchmark::State& state) {
   for (auto _ : state) {
-    if (!peer_fpfh(scan(0).points, scan(0).normals, FpfhOptions{}.radius_m, static_cast<int>(state.range(0)))) {
+    if (!peer_fpfh(scan(0).points, scan(0).normals, features::FpfhOptions{}.radius_m,
+                   static_cast<int>(state.range(0)))) {
       state.SkipWithError("PCL is not installed");
     }
   }

@@ -26,7 +26,7 @@ std::vector<testing::StreetScan> scans_to_map() {
   if (folder == nullptr) {
     return testing::street(kScans, 100000);
   }
-  const std::unique_ptr<DriveLog> log = open_log(folder);
+  const std::unique_ptr<io::DriveLog> log = io::open_log(folder);
   const std::vector<Pose> truth = log->truth();
   std::vector<testing::StreetScan> scans;
   for (std::size_t i = 0; i < truth.size() && scans.size() < kScans; i += 3) {
@@ -50,11 +50,11 @@ double share_of_equal_leaves(const octomap::OcTree& oracle, const std::filesyste
 void occupancy_against_octomap(benchmark::State& state) {
   const std::vector<testing::StreetScan> scans = scans_to_map();
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const OccupancyOptions options;
+  const occupancy::OccupancyOptions options;
   const auto count = static_cast<double>(scans.size());
   for (auto _ : state) {
     Stopwatch watch;
-    OccupancyMapBuilder builder(options, folder);
+    occupancy::OccupancyMapBuilder builder(options, folder);
     for (const testing::StreetScan& scan : scans) {
       builder.insert(scan.points, scan.T_map_sensor);
     }

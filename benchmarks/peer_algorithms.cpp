@@ -13,7 +13,7 @@ struct Prepared {
   double seconds = 0.0;
 };
 
-class Peer : public RegistrationAlgorithm {
+class Peer : public evaluation::RegistrationAlgorithm {
  public:
   Peer(PeerLibrary library, std::string name) : library_(std::move(library)), name_(std::move(name)) {}
 
@@ -21,7 +21,7 @@ class Peer : public RegistrationAlgorithm {
   std::string settings() const override { return name_ + " of " + library_.name; }
 
  protected:
-  const Prepared& prepared(const PairTask& task, bool source) const {
+  const Prepared& prepared(const evaluation::PairTask& task, bool source) const {
     return task.scans->shared<Prepared>(library_.name + (source ? " source" : " target"), [&] {
       const Stopwatch watch;
       PeerLibrary::Scan scan = library_.prepare(finite(source ? task.scans->source() : task.scans->target()));
@@ -45,13 +45,13 @@ class Finder : public Peer {
  public:
   Finder(const PeerLibrary& library, const PeerLibrary::Finder& finder) : Peer(library, finder.name), finder_(finder) {}
 
-  Answer answer(const PairTask& task) override {
+  evaluation::Answer answer(const evaluation::PairTask& task) override {
     const Prepared& source = prepared(task, true);
     const Prepared& target = prepared(task, false);
     const Stopwatch watch;
     const std::optional<Pose> found = finder_.find(source.scan.get(), target.scan.get());
-    Answer answer;
-    answer.status = found ? AnswerStatus::kAnswered : AnswerStatus::kFailed;
+    evaluation::Answer answer;
+    answer.status = found ? evaluation::AnswerStatus::kAnswered : evaluation::AnswerStatus::kFailed;
     answer.T_target_source = found.value_or(Pose::Identity());
     answer.timings = {{"prepare both scans", source.seconds + target.seconds}, {"find", watch.seconds()}};
     answer.paper_seconds = answer.timings[1].seconds;
@@ -68,8 +68,8 @@ class Refiner : public Peer {
   Refiner(const PeerLibrary& library, const std::string& base, const PeerLibrary::Refiner& refiner)
       : Peer(library, base + "+" + refiner.name), base_(base), refiner_(refiner) {}
 
-  Answer answer(const PairTask& task) override {
-    Answer answer = task.earlier->at(base_);
+  evaluation::Answer answer(const evaluation::PairTask& task) override {
+    evaluation::Answer answer = task.earlier->at(base_);
     if (answer.has_motion()) {
       const Prepared& source = prepared(task, true);
       const Prepared& target = prepared(task, false);
@@ -89,7 +89,7 @@ class Refiner : public Peer {
 
 }  // namespace
 
-void add_peers(AlgorithmList& list, const PeerLibrary& library) {
+void add_peers(evaluation::AlgorithmList& list, const PeerLibrary& library) {
   for (const PeerLibrary::Finder& finder : library.finders) {
     list.push_back(std::make_unique<Finder>(library, finder));
     for (const PeerLibrary::Refiner& refiner : library.refiners) {

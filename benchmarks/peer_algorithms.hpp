@@ -10,6 +10,6 @@ namespace loopmark::benchmarks {
 
 /// Every finder of the library, and "FINDER+REFINER" for each of its refiners. They share what the library makes of a
 /// scan.
-void add_peers(AlgorithmList& list, const PeerLibrary& library);
+void add_peers(evaluation::AlgorithmList& list, const PeerLibrary& library);
 
 }  // namespace loopmark::benchmarks

@@ -29,9 +29,9 @@ bool peer_fpfh(const std::vector<Eigen::Vector3f>& points, const std::vector<Eig
 
 namespace {
 
-void search(const DescriptorMatrix& queries, const DescriptorMatrix& in, int threads) {
+void search(const search::DescriptorMatrix& queries, const search::DescriptorMatrix& in, int threads) {
   // FLANN wants pointers to what it only reads.
-  const auto matrix = [](const DescriptorMatrix& m) {
+  const auto matrix = [](const search::DescriptorMatrix& m) {
     return flann::Matrix<float>(const_cast<float*>(m.data()), static_cast<std::size_t>(m.rows()),
                                 static_cast<std::size_t>(m.cols()));
   };
@@ -49,7 +49,7 @@ void search(const DescriptorMatrix& queries, const DescriptorMatrix& in, int thr
 
 }  // namespace
 
-bool peer_nearest_two(const DescriptorMatrix& source, const DescriptorMatrix& target, int threads) {
+bool peer_nearest_two(const search::DescriptorMatrix& source, const search::DescriptorMatrix& target, int threads) {
   search(source, target, threads);
   search(target, source, threads);
   return true;
@@ -59,6 +59,6 @@ bool peer_nearest_two(const DescriptorMatrix& source, const DescriptorMatrix& ta
 #else
 namespace loopmark::benchmarks {
 bool peer_fpfh(const std::vector<Eigen::Vector3f>&, const std::vector<Eigen::Vector3f>&, double, int) { return false; }
-bool peer_nearest_two(const DescriptorMatrix&, const DescriptorMatrix&, int) { return false; }
+bool peer_nearest_two(const search::DescriptorMatrix&, const search::DescriptorMatrix&, int) { return false; }
 }  // namespace loopmark::benchmarks
 #endif

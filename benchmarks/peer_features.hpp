@@ -14,6 +14,6 @@ bool peer_fpfh(const std::vector<Eigen::Vector3f>& points, const std::vector<Eig
                int threads);
 
 /// Exact two nearest in both directions by FLANN's single k-d tree, building included.
-bool peer_nearest_two(const DescriptorMatrix& source, const DescriptorMatrix& target, int threads);
+bool peer_nearest_two(const search::DescriptorMatrix& source, const search::DescriptorMatrix& target, int threads);
 
 }  // namespace loopmark::benchmarks

@@ -16,7 +16,7 @@ namespace loopmark::benchmarks {
 /// An estimator under its name: matched points, the best first, to a motion.
 struct NamedEstimator {
   std::string name;
-  std::function<Pose(const PointPairs&)> estimate;
+  std::function<Pose(const estimation::PointPairs&)> estimate;
 };
 
 /// RANSAC (3 points, edge-length and distance check, 100 k iterations, confidence 0.999) and Fast Global

@@ -17,7 +17,7 @@ struct Clouds {
   open3d::geometry::PointCloud source, target;
   o3d::CorrespondenceSet matches;
 
-  explicit Clouds(const PointPairs& pairs) {
+  explicit Clouds(const estimation::PointPairs& pairs) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       source.points_.push_back(pairs.source[i].cast<double>());
       target.points_.push_back(pairs.target[i].cast<double>());
@@ -32,7 +32,7 @@ Pose pose_of(const o3d::RegistrationResult& result) {
   return T;
 }
 
-Pose ransac(const PointPairs& pairs) {
+Pose ransac(const estimation::PointPairs& pairs) {
   const Clouds clouds(pairs);
   const o3d::CorrespondenceCheckerBasedOnEdgeLength edges(0.9);
   const o3d::CorrespondenceCheckerBasedOnDistance distance(0.6);
@@ -41,7 +41,7 @@ Pose ransac(const PointPairs& pairs) {
       {edges, distance}, o3d::RANSACConvergenceCriteria(100000, 0.999)));
 }
 
-Pose fast_global(const PointPairs& pairs) {
+Pose fast_global(const estimation::PointPairs& pairs) {
   const Clouds clouds(pairs);
   o3d::FastGlobalRegistrationOption option;
   option.maximum_correspondence_distance_ = 0.6;

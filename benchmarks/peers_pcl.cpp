@@ -31,7 +31,7 @@ Features::Ptr numbered(std::size_t count) {
   return features;
 }
 
-Pose prerejective(const PointPairs& pairs) {
+Pose prerejective(const estimation::PointPairs& pairs) {
   pcl::SampleConsensusPrerejective<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33> estimator;
   estimator.setInputSource(cloud_of(pairs.source));
   estimator.setSourceFeatures(numbered(pairs.size()));

@@ -21,20 +21,20 @@
 #include "loopmark/io/drive_log.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
-#include "loopmark/slam/map_truth.hpp"
-#include "loopmark/slam/relocalization_report.hpp"
-#include "loopmark/slam/run_place_map.hpp"
-#include "loopmark/slam/run_records.hpp"
+#include "loopmark/localization/relocalization_report.hpp"
+#include "loopmark/localization/run_place_map.hpp"
+#include "loopmark/map_store/run_records.hpp"
+#include "loopmark/mapping/map_truth.hpp"
 
 namespace {
 
 using namespace loopmark;
 
 struct Reference {
-  RunFolder run;
-  SolvedMap solved;
-  MapTruth map;
-  std::vector<Pose> query;  ///< empty: another world
+  map_store::RunFolder run;
+  mapping::SolvedMap solved;
+  mapping::MapTruth map;
+  std::vector<loopmark::Pose> query;  ///< empty: another world
 };
 
 struct Nearness {
@@ -43,12 +43,13 @@ struct Nearness {
   double log_odds = -20.0;  ///< that the map gives the true pose
 };
 
-Nearness nearness(const Reference& reference, const PlaceMap& map, std::size_t scan, const PointCloud& cloud) {
+Nearness nearness(const Reference& reference, const localization::PlaceMap& map, std::size_t scan,
+                  const loopmark::PointCloud& cloud) {
   Nearness result;
   if (reference.query.empty()) {
     return result;
   }
-  const Pose T_map_lidar = reference.map.in_map(reference.query[scan]);
+  const loopmark::Pose T_map_lidar = reference.map.in_map(reference.query[scan]);
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t k = 0; k < reference.solved.keyframes.size(); ++k) {
     near.emplace_back((reference.solved.T_map_keyframe[k].translation() - T_map_lidar.translation()).norm(), k);
@@ -57,12 +58,12 @@ Nearness nearness(const Reference& reference, const PlaceMap& map, std::size_t s
   near.resize(std::min<std::size_t>(near.size(), 3));
   result.keyframe_m = near.front().first;
   for (const auto& [distance, k] : near) {
-    const PointCloud seen = read_point_file(reference.run.keyframe(k, "pcd")).cloud;
-    const Pose T_keyframe_lidar = reference.solved.T_map_keyframe[k].inverse() * T_map_lidar;
-    result.overlap = std::max(result.overlap, overlap(cloud, seen, T_keyframe_lidar).symmetric);
+    const loopmark::PointCloud seen = io::read_point_file(reference.run.keyframe(k, "pcd")).cloud;
+    const loopmark::Pose T_keyframe_lidar = reference.solved.T_map_keyframe[k].inverse() * T_map_lidar;
+    result.overlap = std::max(result.overlap, cloud::overlap(cloud, seen, T_keyframe_lidar).symmetric);
   }
-  for (const PlaceAnswer& answer : map.judge(cloud, {T_map_lidar})) {
-    if (is_right(pose_error(answer.T_map_lidar, T_map_lidar))) {
+  for (const localization::LocalizationHypothesis& answer : map.judge(cloud, {T_map_lidar})) {
+    if (localization::is_right(loopmark::pose_error(answer.T_map_lidar, T_map_lidar))) {
       result.log_odds = std::max(result.log_odds, answer.log_odds);
     }
   }
@@ -70,34 +71,36 @@ Nearness nearness(const Reference& reference, const PlaceMap& map, std::size_t s
 }
 
 /// The scan without its sensor's own motion, which is taken from the true poses of its neighbours.
-PointCloud deskewed_scan(const DriveLog& log, const std::vector<Pose>& truth, std::size_t i) {
-  PointCloud cloud = log.read(i).cloud;
+loopmark::PointCloud deskewed_scan(const io::DriveLog& log, const std::vector<loopmark::Pose>& truth, std::size_t i) {
+  loopmark::PointCloud cloud = log.read(i).cloud;
   if (log.info().motion_compensated.value_or(true) || truth.empty()) {
     return cloud;
   }
   const std::size_t before = i > 0 ? i - 1 : i;
   const std::size_t behind = std::min(i + 1, log.size() - 1);
-  const Vector6d velocity =
-      log_se3(truth[before].inverse() * truth[behind]) / (log.stamp_s(behind) - log.stamp_s(before));
+  const loopmark::Vector6d velocity =
+      loopmark::log_se3(truth[before].inverse() * truth[behind]) / (log.stamp_s(behind) - log.stamp_s(before));
   const bool timed = cloud.time_offset_s.size() == cloud.size();
   cloud.points =
-      deskewed(cloud.points,
-               timed ? cloud.time_offset_s : times_from_azimuth(cloud.points, log.info().sweep.value_or(SweepModel{})),
-               velocity);
+      cloud::deskewed(cloud.points,
+                      timed ? cloud.time_offset_s
+                            : cloud::times_from_azimuth(cloud.points, log.info().sweep.value_or(cloud::SweepModel{})),
+                      velocity);
   return cloud;
 }
 
-void write_answers(std::ofstream& out, std::size_t scan, const std::vector<PlaceAnswer>& answers,
-                   const Reference& reference, const Nearness& near) {
-  const std::vector<double> p = probabilities(answers);
-  PlaceBeliefs beliefs({});
-  beliefs.add(answers, Pose::Identity());
-  const bool given = beliefs.decided() && beliefs.best()->p >= RelocalizationOptions().min_p_correct;
+void write_answers(std::ofstream& out, std::size_t scan,
+                   const std::vector<localization::LocalizationHypothesis>& answers, const Reference& reference,
+                   const Nearness& near) {
+  const std::vector<double> p = localization::probabilities(answers);
+  localization::PlaceBeliefs beliefs({});
+  beliefs.add(answers, loopmark::Pose::Identity());
+  const bool given = beliefs.decided() && beliefs.best()->p >= localization::RelocalizationOptions().min_p_correct;
   if (answers.empty()) {
     out << scan << ' ' << near.keyframe_m << ' ' << near.overlap << " 1000 180 0 -20 0\n";
   }
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    PoseError error{1000.0, 180.0};
+    loopmark::PoseError error{1000.0, 180.0};
     if (!reference.query.empty()) {
       error = reference.map.error(answers[i].T_map_lidar, reference.query[scan]);
     }
@@ -111,24 +114,27 @@ void write_answers(std::ofstream& out, std::size_t scan, const std::vector<Place
 }
 
 int run(int argc, char** argv) {
-  const RunFolder folder = RunFolder::open(argv[1]);
-  SolvedMap solved = solve_map(read_scan_records(folder), read_loop_records(folder), {}, {});
-  const auto map = open_place_map(folder, solved, {});
-  const MapTruth truth(solved.T_map_scan, read_trajectory(argv[2]).poses);
-  const Reference reference{folder, std::move(solved), truth,
-                            std::string(argv[4]) == "-" ? std::vector<Pose>() : read_trajectory(argv[4]).poses};
-  const auto log = open_log(argv[3]);
-  const std::vector<Pose> truth_of_log = log->truth();
+  const map_store::RunFolder folder = map_store::RunFolder::open(argv[1]);
+  mapping::SolvedMap solved =
+      mapping::solve_map(map_store::read_scan_records(folder), map_store::read_loop_records(folder), {}, {});
+  const auto map = localization::open_place_map(folder, solved, {});
+  const mapping::MapTruth truth(solved.T_map_scan, io::read_trajectory(argv[2]).poses);
+  const Reference reference{
+      folder, std::move(solved), truth,
+      std::string(argv[4]) == "-" ? std::vector<loopmark::Pose>() : io::read_trajectory(argv[4]).poses};
+  const auto log = io::open_log(argv[3]);
+  const std::vector<loopmark::Pose> truth_of_log = log->truth();
   const std::size_t every = argc > 6 ? static_cast<std::size_t>(std::atoi(argv[6])) : 1;
   const std::size_t first = argc > 7 ? static_cast<std::size_t>(std::atoi(argv[7])) : 0;
   std::ofstream out(argv[5]);
   std::clock_t searching = 0;
   int searched = 0;
-  Progress progress("scans", (log->size() - first + every - 1) / every);
+  loopmark::Progress progress("scans", (log->size() - first + every - 1) / every);
   for (std::size_t i = first; i < log->size(); i += every, progress.add()) {
-    const PointCloud cloud = deskewed_scan(*log, truth_of_log, i);
+    const loopmark::PointCloud cloud = deskewed_scan(*log, truth_of_log, i);
     const std::clock_t before = std::clock();
-    const std::vector<PlaceAnswer> answers = map->search(cloud, RelocalizationOptions().places, {});
+    const std::vector<localization::LocalizationHypothesis> answers =
+        map->search(cloud, localization::RelocalizationOptions().places, {});
     searching += std::clock() - before;
     ++searched;
     write_answers(out, i, answers, reference, nearness(reference, *map, i, cloud));

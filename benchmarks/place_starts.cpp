@@ -21,12 +21,12 @@
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/drive_log.hpp"
 #include "loopmark/io/trajectory.hpp"
-#include "loopmark/slam/map_truth.hpp"
-#include "loopmark/slam/relocalization_report.hpp"
-#include "loopmark/slam/relocalizer.hpp"
-#include "loopmark/slam/run_place_map.hpp"
-#include "loopmark/slam/run_records.hpp"
-#include "map_run.hpp"
+#include "loopmark/localization/relocalization_report.hpp"
+#include "loopmark/localization/relocalizer.hpp"
+#include "loopmark/localization/run_place_map.hpp"
+#include "loopmark/map_store/run_records.hpp"
+#include "loopmark/mapping/map_truth.hpp"
+#include "loopmark/workflows/map_run.hpp"
 
 namespace {
 
@@ -36,11 +36,11 @@ constexpr double kStands = 0.3;          // m/s
 constexpr double kMostStandingS = 10.0;  // of a start
 
 struct Stage {
-  std::shared_ptr<const PlaceMap> map;
-  MapTruth truth;
-  std::unique_ptr<DriveLog> log;
-  std::vector<Pose> query;  ///< empty: another world
-  Compensation compensation;
+  std::shared_ptr<const localization::PlaceMap> map;
+  mapping::MapTruth truth;
+  std::unique_ptr<io::DriveLog> log;
+  std::vector<loopmark::Pose> query;  ///< empty: another world
+  odometry::Compensation compensation;
 };
 
 struct Start {
@@ -52,24 +52,24 @@ struct Start {
   int answers = 0;
   int wrong = 0;
   double p = 0.0;
-  PoseError error{1000.0, 180.0};
+  loopmark::PoseError error{1000.0, 180.0};
   std::string reason = "-";
 };
 
-PoseError error_of(const Stage& stage, const RelocalizedScan& answer) {
-  return stage.query.empty() ? PoseError{1000.0, 180.0}
+loopmark::PoseError error_of(const Stage& stage, const localization::RelocalizedScan& answer) {
+  return stage.query.empty() ? loopmark::PoseError{1000.0, 180.0}
                              : stage.truth.error(answer.T_map_lidar, stage.query[answer.scan]);
 }
 
-void take(const Stage& stage, const RelocalizedScan& answer, double seconds, Start& start) {
+void take(const Stage& stage, const localization::RelocalizedScan& answer, double seconds, Start& start) {
   std::string reason = answer.reason.empty() ? "-" : answer.reason;
   std::replace(reason.begin(), reason.end(), ' ', '_');
   start.reason = reason;
   if (!answer.answered) {
     return;
   }
-  const PoseError error = error_of(stage, answer);
-  const bool right = is_right(error);
+  const loopmark::PoseError error = error_of(stage, answer);
+  const bool right = localization::is_right(error);
   ++start.answers;
   if (start.wrong == 0) {
     start.p = answer.p_correct;
@@ -86,8 +86,9 @@ Start started_at(const Stage& stage, std::size_t first, double limit_s) {
   Start start;
   start.scan = first;
   start.mapped_m = stage.query.empty() ? 1e6 : stage.truth.distance(stage.query[first]);
-  Relocalizer relocalizer(stage.map, {}, {}, stage.compensation, stage.log->info().sweep.value_or(SweepModel{}));
-  const std::vector<Pose> poses = stage.log->truth();
+  localization::Relocalizer relocalizer(stage.map, {}, {}, stage.compensation,
+                                        stage.log->info().sweep.value_or(cloud::SweepModel{}));
+  const std::vector<loopmark::Pose> poses = stage.log->truth();
   double seconds = 0.0;
   double standing_s = 0.0;
   for (std::size_t i = first; i < stage.log->size(); ++i) {
@@ -131,13 +132,15 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t end) {
 }
 
 int run(int argc, char** argv) {
-  const RunFolder folder = RunFolder::open(argv[1]);
-  const SolvedMap solved = solve_map(read_scan_records(folder), read_loop_records(folder), {}, {});
-  std::unique_ptr<DriveLog> log = open_log(argv[3]);
-  const Compensation compensation = app::compensation_of(*log, {});
+  const map_store::RunFolder folder = map_store::RunFolder::open(argv[1]);
+  const mapping::SolvedMap solved =
+      mapping::solve_map(map_store::read_scan_records(folder), map_store::read_loop_records(folder), {}, {});
+  std::unique_ptr<io::DriveLog> log = io::open_log(argv[3]);
+  const odometry::Compensation compensation = app::compensation_of(*log, {});
   const bool elsewhere = std::string(argv[4]) == "-";
-  const Stage stage{open_place_map(folder, solved, {}), MapTruth(solved.T_map_scan, read_trajectory(argv[2]).poses),
-                    std::move(log), elsewhere ? std::vector<Pose>() : read_trajectory(argv[4]).poses, compensation};
+  const Stage stage{localization::open_place_map(folder, solved, {}),
+                    mapping::MapTruth(solved.T_map_scan, io::read_trajectory(argv[2]).poses), std::move(log),
+                    elsewhere ? std::vector<loopmark::Pose>() : io::read_trajectory(argv[4]).poses, compensation};
   const auto count = static_cast<std::size_t>(std::atoi(argv[6]));
   const double limit_s = std::atof(argv[7]);
   const double end_s = stage.log->stamp_s(stage.log->size() - 1) - limit_s;
@@ -154,8 +157,8 @@ int run(int argc, char** argv) {
   }
   std::ofstream out(argv[5]);
   std::mutex mutex;
-  Progress progress("starts", starts.size());
-  parallel_for(starts.size(), [&](std::size_t i) {
+  loopmark::Progress progress("starts", starts.size());
+  loopmark::parallel_for(starts.size(), [&](std::size_t i) {
     const Start start = started_at(stage, starts[i], limit_s);
     const std::scoped_lock lock(mutex);
     write_row(out, start);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Retrieval among many keyframes, on synthetic signatures of the real size (512 numbers).
+// Retrieval among many keyframes, on synthetic descriptors of the real size (512 numbers).
 //
 //   bench_places
 //
@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "loopmark/places/place_index.hpp"
-#include "places/synthetic_signatures.hpp"
+#include "places/synthetic_descriptors.hpp"
 #include "places/towns.hpp"
 
 namespace loopmark {
@@ -16,13 +16,13 @@ namespace {
 
 void query_places(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
-  const std::vector<PlaceSignature> drive = testing::drive_signatures(count, 1);
-  PlaceIndex index;
+  const std::vector<places::PlaceDescriptor> drive = testing::drive_descriptors(count, 1);
+  places::PlaceIndex index;
   for (std::size_t i = 0; i < count; ++i) {
     index.add(i, drive[i]);
   }
   constexpr std::size_t kQueries = 100;
-  std::vector<PlaceSignature> queries;
+  std::vector<places::PlaceDescriptor> queries;
   double agreed = 0.0;
   for (std::size_t q = 0; q < kQueries; ++q) {
     queries.push_back(testing::seen_again(drive[q * count / kQueries], 1000 + q));
@@ -38,7 +38,7 @@ void query_places(benchmark::State& state) {
 void compute_signature(benchmark::State& state) {
   const std::vector<Eigen::Vector3f> points = testing::Town(1).seen_from(0, 0, 0);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(place_signature(points));
+    benchmark::DoNotOptimize(places::place_descriptor(points));
   }
 }
 

@@ -21,10 +21,10 @@
 #include "loopmark/estimation/gnc.hpp"
 #include "loopmark/estimation/ransac.hpp"
 #include "loopmark/estimation/spatial_consistency.hpp"
-#include "loopmark/evaluation/pair_set.hpp"
+#include "loopmark/feature_registration/named_algorithms.hpp"
+#include "loopmark/feature_registration/pipeline.hpp"
 #include "loopmark/io/point_files.hpp"
-#include "loopmark/registration/named_algorithms.hpp"
-#include "loopmark/registration/paper_pipeline.hpp"
+#include "loopmark/pair_sets/pair_set.hpp"
 #include "peers.hpp"
 
 namespace loopmark::benchmarks {
@@ -59,22 +59,27 @@ PointCloud read_scan(const std::filesystem::path& log, int frame) {
   if (!std::filesystem::exists(path)) {
     path.replace_extension(".bin");
   }
-  return read_point_file(path).cloud;
+  return io::read_point_file(path).cloud;
 }
 
 std::vector<NamedEstimator> estimators() {
   std::vector<NamedEstimator> all = {
       {"ransac (PROSAC, ELC, LO)",
-       [](const PointPairs& p) { return ransac(p, named_algorithm("ransac_mutual").ransac).T_target_source; }},
-      {"ransac, 100 k",
-       [](const PointPairs& p) {
-         RansacOptions o;
-         o.max_iterations = 100'000;
-         return ransac(p, o).T_target_source;
+       [](const estimation::PointPairs& p) {
+         return estimation::ransac(p, feature_registration::named_algorithm("ransac_mutual").ransac).T_target_source;
        }},
-      {"gnc_clique", [](const PointPairs& p) { return gnc_clique(p).T_target_source; }},
-      {"gnc_core", [](const PointPairs& p) { return gnc_clique(p, named_algorithm("gnc_core").gnc).T_target_source; }},
-      {"sc2", [](const PointPairs& p) { return spatial_consistency(p).T_target_source; }},
+      {"ransac, 100 k",
+       [](const estimation::PointPairs& p) {
+         estimation::RansacOptions o;
+         o.max_iterations = 100'000;
+         return estimation::ransac(p, o).T_target_source;
+       }},
+      {"gnc_clique", [](const estimation::PointPairs& p) { return estimation::gnc_clique(p).T_target_source; }},
+      {"gnc_core",
+       [](const estimation::PointPairs& p) {
+         return estimation::gnc_clique(p, feature_registration::named_algorithm("gnc_core").gnc).T_target_source;
+       }},
+      {"sc2", [](const estimation::PointPairs& p) { return estimation::spatial_consistency(p).T_target_source; }},
   };
   for (const auto& peers : {open3d_estimators(), pcl_estimators()}) {
     all.insert(all.end(), peers.begin(), peers.end());
@@ -100,8 +105,9 @@ double mean(const std::vector<double>& values) {
   return sum;
 }
 
-void run_pair(const PointPairs& matches, const Surface& source, const IcpTarget& target, const Pose& truth,
-              const std::vector<NamedEstimator>& all, std::vector<Row>& rows) {
+void run_pair(const estimation::PointPairs& matches, const refinement::Surface& source,
+              const refinement::IcpTarget& target, const Pose& truth, const std::vector<NamedEstimator>& all,
+              std::vector<Row>& rows) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const double processor = processor_seconds();
     const auto start = std::chrono::steady_clock::now();
@@ -109,7 +115,7 @@ void run_pair(const PointPairs& matches, const Surface& source, const IcpTarget&
     rows[k].wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     rows[k].processor.push_back(processor_seconds() - processor);
     rows[k].right += is_right(T, truth) ? 1U : 0U;
-    rows[k].right_after_icp += is_right(icp(source, target, T).T_target_source, truth) ? 1U : 0U;
+    rows[k].right_after_icp += is_right(refinement::icp(source, target, T).T_target_source, truth) ? 1U : 0U;
   }
 }
 
@@ -131,9 +137,9 @@ int run(int argc, char** argv) {
     return 2;
   }
   const auto every = static_cast<std::size_t>(argc > 4 ? std::max(1, std::atoi(argv[4])) : 1);
-  PaperOptions options = named_algorithm("ransac_mutual");
+  feature_registration::FeatureRegistrationOptions options = feature_registration::named_algorithm("ransac_mutual");
   options.match_ground = !(argc > 5 && std::string(argv[5]) == "no_ground");
-  const auto pairs = read_pair_set(argv[1]);
+  const auto pairs = pair_sets::read_pair_set(argv[1]);
   const auto names = read_sessions(argv[3]);
   auto all = estimators();
   if (argc > 6) {
@@ -144,12 +150,16 @@ int run(int argc, char** argv) {
   double matched = 0.0;
   for (std::size_t i = 0; i < pairs.size(); i += every) {
     const std::filesystem::path log = std::filesystem::path(argv[2]) / names.at(pairs[i].key.session);
-    const DescribedScan source = describe_scan(read_scan(log, pairs[i].key.source), options);
-    const DescribedScan target = describe_scan(read_scan(log, pairs[i].key.target), options);
-    const Correspondences mutual =
-        keep_best(keep_mutual(correspondences_of(nearest_two(source.descriptors, target.descriptors))), 0);
-    const PointPairs matches = PointPairs::of(mutual, source.keypoints, target.keypoints);
-    run_pair(matches, source.surface, IcpTarget(target.surface, 0.6), pairs[i].T_target_source, all, rows);
+    const feature_registration::DescribedScan source =
+        feature_registration::describe_scan(read_scan(log, pairs[i].key.source), options);
+    const feature_registration::DescribedScan target =
+        feature_registration::describe_scan(read_scan(log, pairs[i].key.target), options);
+    const matching::Correspondences mutual = matching::keep_best(
+        matching::keep_mutual(
+            matching::correspondences_of(matching::nearest_two(source.descriptors, target.descriptors))),
+        0);
+    const estimation::PointPairs matches = estimation::PointPairs::of(mutual, source.keypoints, target.keypoints);
+    run_pair(matches, source.surface, refinement::IcpTarget(target.surface, 0.6), pairs[i].T_target_source, all, rows);
     matched += static_cast<double>(matches.size());
     ++used;
   }

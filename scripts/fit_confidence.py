@@ -19,18 +19,18 @@ import numpy as np
 from scipy import optimize
 
 # +1: more is never worth less, -1: never worth more.
-SIGNS = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "object_clash": -1, "far_conflict": -1, "contradicted": -1,
-         "tall_contradicted": -1, "residual": -1, "objects": 1, "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "near": -1}
+SIGNS = {"agreement": 1, "low_missing": -1, "tall_strong_violation": -1, "object_strong_violation": -1, "far_violation": -1, "contradicted": -1,
+         "tall_contradicted": -1, "residual": -1, "objects": 1, "peak": 1, "rise": 1, "ground": 1, "ground_gap": -1, "proximity": -1}
 # What tells the scene, and is worth nothing by itself: a fit has not as many pairs of the same place in every scene as the world.
-OF_SCENE = ["fewer", "fill", "fill_more"]
+OF_SCENE = ["structure_fewer", "density_ratio", "density_ratio_more"]
 COLUMNS = [*SIGNS, *OF_SCENE]
 QUANTILES = [0.01, 0.12, 0.25, 0.4, 0.6, 0.75, 0.88, 0.99]
 RIDGE, ROUGHNESS, STEPS = 0.0001, 0.0002, 800
 LITTLE, MUCH = 5.5, 7.5  # structure of the scan that has fewer, logarithmic
 NEAR_M, FAR_M = 10.0, 50.0  # between the sensors
-SPARSE, DENSE = 1.0, 1.25  # fine patches in a coarse one, logarithmic, of the scan that has fewer
+SPARSE, DENSE = 1.0, 1.25  # fine surfels in a coarse one, logarithmic, of the scan that has fewer
 BOTH_SPARSE, ONE_DENSE = 1.05, 1.3  # of the other
-SCENES = ["little structure", "much structure", "near", "far", "one is sparse", "both are dense", "both are sparse",
+SCENES = ["little structure", "much structure", "proximity", "far", "one is sparse", "both are dense", "both are sparse",
           "one is dense"]
 CALM = 2.0  # how much a pair of different places weighs against one of the same place
 
@@ -68,11 +68,11 @@ def scenes(x):
     """How much of each scene the rows are: (rows, scenes). Each two of them are shares of one."""
     x = np.asarray(x)
     column = lambda name: x[:, COLUMNS.index(name)]
-    much = np.clip((column("fewer") - LITTLE) / (MUCH - LITTLE), 0.0, 1.0)
-    apart_m = -10.0 * np.log(np.maximum(column("near"), 1e-9))
+    much = np.clip((column("structure_fewer") - LITTLE) / (MUCH - LITTLE), 0.0, 1.0)
+    apart_m = -10.0 * np.log(np.maximum(column("proximity"), 1e-9))
     far = np.clip((apart_m - NEAR_M) / (FAR_M - NEAR_M), 0.0, 1.0)
-    both_dense = np.clip((column("fill") - SPARSE) / (DENSE - SPARSE), 0.0, 1.0)
-    one_dense = np.clip((column("fill_more") - BOTH_SPARSE) / (ONE_DENSE - BOTH_SPARSE), 0.0, 1.0)
+    both_dense = np.clip((column("density_ratio") - SPARSE) / (DENSE - SPARSE), 0.0, 1.0)
+    one_dense = np.clip((column("density_ratio_more") - BOTH_SPARSE) / (ONE_DENSE - BOTH_SPARSE), 0.0, 1.0)
     return np.stack([1.0 - much, much, 1.0 - far, far, 1.0 - both_dense, both_dense, 1.0 - one_dense, one_dense], axis=1)
 
 
@@ -170,7 +170,7 @@ def main():
 HEAD = """// SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 /// What each number of the evidence is worth in each scene. Written by scripts/fit_confidence.py, in the order of
-/// kFeatureNames and of scene_shares().
+/// kFeatureNames and of mixture_weights().
 #pragma once
 
 #include "confidence.hpp"
@@ -187,12 +187,12 @@ def print_header(knots, worth, bias):
     print(f"constexpr double kMuch = {MUCH};")
     print(f"constexpr double kNear = {NEAR_M};  // metres between the sensors")
     print(f"constexpr double kFar = {FAR_M};")
-    print(f"constexpr double kSparse = {SPARSE};  // fine patches in a coarse one, logarithmic, of the scan that has fewer")
+    print(f"constexpr double kSparse = {SPARSE};  // fine surfels in a coarse one, logarithmic, of the scan that has fewer")
     print(f"constexpr double kDense = {DENSE};")
     print(f"constexpr double kBothSparse = {BOTH_SPARSE};  // of the other")
     print(f"constexpr double kOneDense = {ONE_DENSE};")
     print(f"constexpr std::array<double, kScenes> kBias = {row(bias)};")
-    print("constexpr std::array<Worth, kWeighed> kWorth = {{")
+    print("constexpr std::array<WeightCurve, kWeighed> kWeightCurves = {{")
     for k, name in enumerate(SIGNS):
         curves = ",\n      ".join(row(worth[s, k]) for s in range(len(SCENES)))
         print(f"    {{{row(knots[k])},  // {name}\n     {{{{{curves}}}}}}},")

@@ -9,15 +9,15 @@ as they are, so that "none of these" rests on the many pairs that the engine was
 lags behind the most alike one; g: evidence that is compared with that of the answer of which the engine is surest: where
 several places fit, it says which fits better. Scans of one
 file are one fold of the cross-validation (a town that was not fitted judges). Prints the constants of
-libs/slam/src/place_confidence.cpp. Needs python3-numpy.
+libs/localization/src/place_confidence.cpp. Needs python3-numpy.
 """
 import sys
 
 import numpy as np
 
 # +1: the weight may not be negative, -1: not positive.
-SIGNS = {"registration": 1, "signature_lag": -1}
-COMPARED = {"agreement": 1, "low_absence": -1, "tall_clash": -1, "far_conflict": -1, "ground_gap": -1}
+SIGNS = {"registration": 1, "descriptor_lag": -1}
+COMPARED = {"agreement": 1, "low_missing": -1, "tall_strong_violation": -1, "far_violation": -1, "ground_gap": -1}
 MOST_LAG = 0.03  # a lag beyond it says no more: another sensor or a changed place may lag far
 WEIGHTS = {**SIGNS, **COMPARED}
 RIDGE, STEPS, RATE, WRONG = 0.003, 3000, 0.03, 0.5
@@ -32,7 +32,7 @@ def load(file):
         if not evidence:
             continue
         values = {name: float(value) for name, value in (item.split("=") for item in evidence)}
-        values["signature_lag"] = min(values["signature_lag"], MOST_LAG)
+        values["descriptor_lag"] = min(values["descriptor_lag"], MOST_LAG)
         entry["x"].append([values[key] for key in WEIGHTS])
         entry["right"].append(float(error_m) < RIGHT_M and float(error_deg) < RIGHT_DEG)
     for entry in scans.values():

@@ -6,14 +6,14 @@
 #include <memory>
 #include <sstream>
 
-#include "balance_drives.hpp"
 #include "commands.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
-#include "loopmark/evaluation/balanced_selection.hpp"
-#include "loopmark/evaluation/hard_negatives.hpp"
-#include "loopmark/evaluation/reference_refinement.hpp"
-#include "loopmark/evaluation/set_statistics.hpp"
+#include "loopmark/pair_sets/balanced_selection.hpp"
+#include "loopmark/pair_sets/hard_negatives.hpp"
+#include "loopmark/pair_sets/reference_refinement.hpp"
+#include "loopmark/pair_sets/set_statistics.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/workflows/balance_drives.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -62,22 +62,22 @@ Subset parse_subset(const std::string& text) {
     throw InputError("--subset " + text + ": not NAME:PAIRS:SESSIONS, such as test:555:8-10");
   }
   subset.pairs = std::stoul(count);
-  subset.sessions = parse_sessions(sessions);
+  subset.sessions = workflows::parse_sessions(sessions);
   return subset;
 }
 
-ReferenceRefinement refinement_from(const std::string& name) {
+pair_sets::ReferenceRefinement refinement_from(const std::string& name) {
   if (name == "icp") {
-    return ReferenceRefinement::kIcp;
+    return pair_sets::ReferenceRefinement::kIcp;
   }
-  return name == "z" ? ReferenceRefinement::kHeight : ReferenceRefinement::kNone;
+  return name == "z" ? pair_sets::ReferenceRefinement::kHeight : pair_sets::ReferenceRefinement::kNone;
 }
 
 /// One run of the command.
 class Balancer {
  public:
-  Balancer(const BalanceArguments& arguments, const BalanceOptions& options)
-      : a_(arguments), options_(options), list_(open_drives(arguments.logs, arguments.poses)) {
+  Balancer(const BalanceArguments& arguments, const pair_sets::BalanceOptions& options)
+      : a_(arguments), options_(options), list_(workflows::open_drives(arguments.logs, arguments.poses)) {
     const bool one_file = a_.output.extension() == ".txt";
     folder_ = one_file ? a_.output.parent_path() : a_.output;
     subsets_ = {{one_file ? a_.output.stem().string() : "pairs", a_.pairs, {}}};
@@ -95,23 +95,23 @@ class Balancer {
       fs::create_directories(folder_);
     }
     write_sessions();
-    const std::vector<RegistrationPair> pool =
-        make_candidate_pool(list_.drives, wanted_, options_, folder_ / "candidates.records", &cost_);
+    const std::vector<pair_sets::RegistrationPair> pool =
+        pair_sets::make_candidate_pool(list_.drives, wanted_, options_, folder_ / "candidates.records", &cost_);
     print_cost(pool.size());
     for (const Subset& subset : subsets_) {
       write_subset(subset, pool);
     }
     if (a_.revisits > 0) {
       write_subset({"revisits", a_.revisits, {}},
-                   make_revisit_pool(list_.drives, a_.revisits, a_.same_world, options_));
+                   pair_sets::make_revisit_pool(list_.drives, a_.revisits, a_.same_world, options_));
     }
     if (a_.negatives > 0) {
-      const auto negatives = find_hard_negatives(list_.drives, a_.negatives, a_.same_world, options_);
-      write_negatives(folder_ / "negatives.txt", negatives);
+      const auto negatives = pair_sets::find_hard_negatives(list_.drives, a_.negatives, a_.same_world, options_);
+      pair_sets::write_negatives(folder_ / "negatives.txt", negatives);
       std::printf("negatives.txt: %zu pairs of different places that look alike (%zu asked for)\n", negatives.size(),
                   a_.negatives);
     }
-    write_file_atomically(folder_ / "strata.md", strata_);
+    storage::write_file_atomically(folder_ / "strata.md", strata_);
     std::printf("written to %s; next: loopmark evaluate %s --data %s -o RESULT\n", folder_.c_str(),
                 (folder_ / (subsets_.front().name + ".txt")).c_str(), list_.root.c_str());
     return 0;
@@ -123,10 +123,10 @@ class Balancer {
       return;
     }
     std::string text = "index name\n";
-    for (const Drive& drive : list_.drives) {
+    for (const pair_sets::Drive& drive : list_.drives) {
       text += std::to_string(drive.session) + ' ' + drive.name + '\n';
     }
-    write_file_atomically(folder_ / "sessions.txt", text);
+    storage::write_file_atomically(folder_ / "sessions.txt", text);
   }
 
   void print_cost(std::size_t candidates) const {
@@ -135,14 +135,15 @@ class Balancer {
                 cost_.scans, cost_.seconds, each);
   }
 
-  void write_subset(const Subset& subset, std::vector<RegistrationPair> pool) {
-    std::erase_if(pool, [&](const RegistrationPair& pair) {
+  void write_subset(const Subset& subset, std::vector<pair_sets::RegistrationPair> pool) {
+    std::erase_if(pool, [&](const pair_sets::RegistrationPair& pair) {
       const auto& wanted = subset.sessions;
       return !wanted.empty() && std::find(wanted.begin(), wanted.end(), pair.key.session) == wanted.end();
     });
-    SelectionReport report;
-    std::vector<RegistrationPair> pairs = select_balanced(pool, subset.pairs, options_, &report);
-    const RefinementReport refined = refine_references(pairs, list_.drives, refinement_from(a_.refine));
+    pair_sets::SelectionReport report;
+    std::vector<pair_sets::RegistrationPair> pairs = pair_sets::select_balanced(pool, subset.pairs, options_, &report);
+    const pair_sets::RefinementReport refined =
+        pair_sets::refine_references(pairs, list_.drives, refinement_from(a_.refine));
     if (refined.refined + refined.kept > 0) {
       std::printf("%s: %zu reference motions refined (median %.3f m), %zu kept as they were\n", subset.name.c_str(),
                   refined.refined, refined.median_shift_m, refined.kept);
@@ -151,24 +152,24 @@ class Balancer {
       std::printf("%s: no pair has enough overlap\n", subset.name.c_str());
       return;
     }
-    write_pair_set(folder_ / (subset.name + ".txt"), pairs);
+    pair_sets::write_pair_set(folder_ / (subset.name + ".txt"), pairs);
     std::printf("%s.txt: %zu pairs (%zu asked for)\n", subset.name.c_str(), pairs.size(), subset.pairs);
-    const TextTable evenness = evenness_table(pairs, pool, options_.seed);
-    std::printf("\n%s\n", to_markdown(evenness).c_str());
+    const text::TextTable evenness = pair_sets::evenness_table(pairs, pool, options_.seed);
+    std::printf("\n%s\n", text::to_markdown(evenness).c_str());
     strata_ += "# " + subset.name + "\n\n";
-    for (const TextTable& table :
-         {set_overview({{subset.name, pairs}}), evenness, fairness_table(report), strata_table(pairs)}) {
-      strata_ += to_markdown(table) + '\n';
+    for (const text::TextTable& table : {pair_sets::set_overview({{subset.name, pairs}}), evenness,
+                                         pair_sets::fairness_table(report), pair_sets::strata_table(pairs)}) {
+      strata_ += text::to_markdown(table) + '\n';
     }
   }
 
   const BalanceArguments& a_;
-  const BalanceOptions& options_;
-  DriveList list_;
+  const pair_sets::BalanceOptions& options_;
+  workflows::DriveList list_;
   fs::path folder_;
   std::vector<Subset> subsets_;
   std::size_t wanted_ = 0;
-  PoolCost cost_;
+  pair_sets::PoolCost cost_;
   std::string strata_;
 };
 
@@ -190,7 +191,7 @@ Action set_up_balance(CLI::App& command, const Globals& globals) {
       ->check(CLI::IsMember({"none", "icp", "z"}));
   command.add_option("--seed", a->seed, "seed of everything random; default: balance.seed");
   return [a, &globals] {
-    BalanceOptions options = globals.options().balance;
+    pair_sets::BalanceOptions options = globals.options().balance;
     options.seed = a->seed >= 0 ? static_cast<std::uint64_t>(a->seed) : options.seed;
     return Balancer(*a, options).run();
   };

@@ -36,13 +36,8 @@ const std::vector<Command>& commands() {
   return table;
 }
 
-AppOptions Globals::options() const { return config::load<AppOptions>(config_file, settings); }
-
-ExitCode exit_code_of(const std::exception& problem) {
-  if (dynamic_cast<const InputError*>(&problem) != nullptr) {
-    return ExitCode::kInput;
-  }
-  return dynamic_cast<const Interrupted*>(&problem) != nullptr ? ExitCode::kInterrupted : ExitCode::kInternal;
+workflows::ProgramOptions Globals::options() const {
+  return config::load<workflows::ProgramOptions>(config_file, settings);
 }
 
 namespace {

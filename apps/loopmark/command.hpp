@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "app_options.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/workflows/options.hpp"
 
 namespace loopmark::app {
 
@@ -25,7 +25,7 @@ struct Globals {
   std::vector<std::string> arguments;  ///< all of them, as given
 
   /// The defaults, changed by the file and then by --set. Throws InputError with file, line and nearest key.
-  AppOptions options() const;
+  workflows::ProgramOptions options() const;
 };
 
 /// What a subcommand does once the command line is parsed; returns the exit code.
@@ -40,9 +40,6 @@ struct Command {
 
 /// Every subcommand, in the order of the help.
 const std::vector<Command>& commands();
-
-/// What the program ends with when this has gone wrong.
-ExitCode exit_code_of(const std::exception& problem);
 
 /// Parses the command line and runs the chosen subcommand; turns exceptions into exit codes.
 int run(int argc, const char* const* argv);

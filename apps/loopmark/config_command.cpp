@@ -7,7 +7,7 @@
 #include "command.hpp"
 #include "commands.hpp"
 #include "loopmark/config/options_io.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -18,11 +18,11 @@ struct Arguments {
 };
 
 int dump_options(const Globals& globals, const Arguments& arguments) {
-  const std::string yaml = options_as_yaml(globals.options());
+  const std::string yaml = workflows::options_as_yaml(globals.options());
   if (arguments.output.empty()) {
     std::fputs(yaml.c_str(), stdout);
   } else {
-    write_file_atomically(arguments.output, yaml);
+    storage::write_file_atomically(arguments.output, yaml);
   }
   return 0;
 }
@@ -36,12 +36,6 @@ int check_file(const Globals& globals, const Arguments& arguments) {
 }
 
 }  // namespace
-
-std::string options_as_yaml(const AppOptions& options) {
-  return "# Options of loopmark. Any of them may stand in a file given as --config FILE; the others keep their "
-         "defaults.\n\n" +
-         config::dump(options);
-}
 
 Action set_up_config(CLI::App& command, const Globals& globals) {
   const auto arguments = std::make_shared<Arguments>();

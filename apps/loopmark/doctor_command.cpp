@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "compensation_of_log.hpp"
 #include "loopmark/io/log_report.hpp"
+#include "loopmark/workflows/compensation_of_log.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -23,24 +23,24 @@ constexpr const char* kExamples = R"(Examples:
   loopmark doctor logs --sessions set/sessions.txt  the logs that a set of pairs names
 Nothing is written.)";
 
-int doctor_of_log(const DriveLog& log, bool json) {
-  LogReport report = examine_log(log);
-  report.compensation = describe_measurement(compensation_of_log(log));
-  std::fputs((json ? report_json(report) : report_text(report)).c_str(), stdout);
+int doctor_of_log(const io::DriveLog& log, bool json) {
+  io::LogReport report = io::examine_log(log);
+  report.compensation = workflows::describe_measurement(workflows::compensation_of_log(log));
+  std::fputs((json ? io::report_json(report) : io::report_text(report)).c_str(), stdout);
   return report.usable > 0 ? 0 : static_cast<int>(ExitCode::kInput);
 }
 
-int doctor_of_dataset(const Dataset& dataset, bool json) {
-  const DatasetReport report = examine_dataset(dataset);
-  std::fputs((json ? report_json(report) : report_text(report)).c_str(), stdout);
+int doctor_of_dataset(const io::Dataset& dataset, bool json) {
+  const io::DatasetReport report = io::examine_dataset(dataset);
+  std::fputs((json ? io::report_json(report) : io::report_text(report)).c_str(), stdout);
   return 0;
 }
 
 /// The data set under a root folder that is no log itself; the log's error when it is neither.
-std::unique_ptr<Dataset> dataset_instead(const std::filesystem::path& path, const DatasetOptions& options,
-                                         const InputError& log_error) {
+std::unique_ptr<io::Dataset> dataset_instead(const std::filesystem::path& path, const io::DatasetOptions& options,
+                                             const InputError& log_error) {
   try {
-    return open_dataset(path, {}, options);
+    return io::open_dataset(path, {}, options);
   } catch (const InputError& error) {
     const bool no_dataset = std::string(error.what()).find("no data set") != std::string::npos ||
                             std::string(error.what()).find("no such folder") != std::string::npos;
@@ -48,13 +48,13 @@ std::unique_ptr<Dataset> dataset_instead(const std::filesystem::path& path, cons
   }
 }
 
-int doctor(const DoctorArguments& arguments, const DatasetOptions& options) {
+int doctor(const DoctorArguments& arguments, const io::DatasetOptions& options) {
   if (!arguments.sessions.empty()) {
-    return doctor_of_dataset(*open_dataset(arguments.path, arguments.sessions, options), arguments.json);
+    return doctor_of_dataset(*io::open_dataset(arguments.path, arguments.sessions, options), arguments.json);
   }
-  std::unique_ptr<DriveLog> log;
+  std::unique_ptr<io::DriveLog> log;
   try {
-    log = open_log(arguments.path, options.log);
+    log = io::open_log(arguments.path, options.log);
   } catch (const InputError& error) {
     return doctor_of_dataset(*dataset_instead(arguments.path, options, error), arguments.json);
   }
@@ -70,8 +70,8 @@ Action set_up_doctor(CLI::App& command, const Globals& globals) {
   command.add_flag("--json", arguments->json, "answer as JSON");
   command.footer(kExamples);
   return [arguments, &globals] {
-    const AppOptions all = globals.options();
-    DatasetOptions options = all.dataset;
+    const workflows::ProgramOptions all = globals.options();
+    io::DatasetOptions options = all.dataset;
     options.log = all.log;
     return doctor(*arguments, options);
   };

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "drill_run.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
-#include "map_job.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/workflows/drill_run.hpp"
+#include "loopmark/workflows/map_job.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 struct DrillArguments {
   fs::path what;
   fs::path output;
-  DrillJob job;
+  workflows::DrillJob job;
   std::optional<std::size_t> events;
   std::optional<std::uint64_t> seed;
   std::optional<double> within_s;
@@ -58,14 +58,15 @@ void declare(CLI::App& command, DrillArguments& a) {
 bool is_run(const fs::path& path) { return fs::exists(path / "records" / "scans.rec"); }
 
 /// Maps the log into OUT.partial/map.
-fs::path map_of(const DrillArguments& a, const fs::path& partial, const Globals& globals, const AppOptions& options) {
+fs::path map_of(const DrillArguments& a, const fs::path& partial, const Globals& globals,
+                const workflows::ProgramOptions& options) {
   fs::create_directories(partial);
-  start_map(a.what, a.job.map_truth, partial / "map", globals, options);
+  workflows::start_map(a.what, a.job.map_truth, partial / "map", globals.arguments, options);
   return partial / "map";
 }
 
-AppOptions options_of(const DrillArguments& a, const Globals& globals) {
-  AppOptions options = globals.options();
+workflows::ProgramOptions options_of(const DrillArguments& a, const Globals& globals) {
+  workflows::ProgramOptions options = globals.options();
   options.drill.events = a.events.value_or(options.drill.events);
   options.drill.seed = a.seed.value_or(options.drill.seed);
   options.drill.within_s = a.within_s.value_or(options.drill.within_s);
@@ -82,7 +83,7 @@ void must_not_exist(const fs::path& path, const std::string& remedy) {
 }
 
 int drill(const DrillArguments& a, const Globals& globals) {
-  const AppOptions options = options_of(a, globals);
+  const workflows::ProgramOptions options = options_of(a, globals);
   const fs::path partial = a.output.string() + ".partial";
   must_not_exist(a.output, "choose another name for -o");
   must_not_exist(partial, "a drill was interrupted here: remove it, or choose another name for -o");
@@ -91,15 +92,15 @@ int drill(const DrillArguments& a, const Globals& globals) {
       throw InputError(input.string(), "", "is not there");
     }
   }
-  DrillJob job = a.job;
+  workflows::DrillJob job = a.job;
   job.run = is_run(a.what) ? a.what : map_of(a, partial, globals, options);
-  const DrillResult result = run_drill(job, a.what.string(), options);
+  const workflows::DrillResult result = workflows::run_drill(job, a.what.string(), options);
   fs::create_directories(partial);
-  write_drill(partial, result);
-  write_file_atomically(partial / "config.yaml", options_as_yaml(options));
+  workflows::write_drill(partial, result);
+  storage::write_file_atomically(partial / "config.yaml", workflows::options_as_yaml(options));
   fs::rename(partial, a.output);
-  std::printf("%s%zu events (of %zu asked for); report %s\n", drill_table(result).c_str(), result.events.size(),
-              options.drill.events, (a.output / "report.html").c_str());
+  std::printf("%s%zu events (of %zu asked for); report %s\n", workflows::drill_table(result).c_str(),
+              result.events.size(), options.drill.events, (a.output / "report.html").c_str());
   return 0;
 }
 

@@ -7,7 +7,7 @@
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/external_algorithm.hpp"
-#include "loopmark/registration/named_algorithms.hpp"
+#include "loopmark/feature_registration/named_algorithms.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -25,13 +25,15 @@ std::pair<std::string, std::string> named(const std::string& text, const std::st
 /// The algorithms of one experiment while they are collected.
 class Collection {
  public:
-  Collection(const EvaluateArguments& arguments, const AppOptions& options, const EvaluatedSet& set)
+  Collection(const EvaluateArguments& arguments, const workflows::ProgramOptions& options,
+             const evaluation::EvaluatedSet& set)
       : arguments_(arguments), options_(options), set_(set) {}
 
-  AlgorithmList all() {
+  evaluation::AlgorithmList all() {
     for (const std::string& text : arguments_.motions) {
       const auto [name, file] = named(text, std::filesystem::path(text).stem().string());
-      add(make_motions_algorithm(name, motions_of_pairs(set_.pairs, read_motions(file), file)));
+      add(evaluation::make_motions_algorithm(
+          name, pair_sets::motions_of_pairs(set_.pairs, pair_sets::read_motions(file), file)));
     }
     for (const std::string& name : all_names()) {
       if (name == "engine" || arguments_.features.empty()) {
@@ -45,7 +47,7 @@ class Collection {
     }
     for (const std::string& text : arguments_.commands) {
       const auto [name, command] = named(text, "command");
-      add(make_external_algorithm(name, {command, arguments_.time_limit_s, 60.0, {}}));
+      add(evaluation::make_external_algorithm(name, {command, arguments_.time_limit_s, 60.0, {}}));
     }
     return std::move(list_);
   }
@@ -57,14 +59,15 @@ class Collection {
     return nothing ? std::vector<std::string>{"engine"} : arguments_.algorithms;
   }
 
-  std::unique_ptr<RegistrationAlgorithm> by_name(const std::string& name, const DescriptorSource& descriptors) const {
+  std::unique_ptr<evaluation::RegistrationAlgorithm> by_name(const std::string& name,
+                                                             const evaluation::DescriptorSource& descriptors) const {
     if (name == "engine") {
-      return make_engine_algorithm(options_.registration, config::dump(options_.registration));
+      return evaluation::make_engine_algorithm(options_.registration, config::dump(options_.registration));
     }
     if (name.substr(0, name.find('#')) == "custom") {
-      return make_configured_algorithm(name, options_.paper, config::dump(options_.paper), descriptors);
+      return evaluation::make_configured_algorithm(name, options_.paper, config::dump(options_.paper), descriptors);
     }
-    return make_named_algorithm(name, descriptors);
+    return evaluation::make_named_algorithm(name, descriptors);
   }
 
   /// The names that one word of --algorithms stands for.
@@ -73,7 +76,7 @@ class Collection {
       return {"ransac_mutual", "ransac_gpf", "gnc_clique", "sc2"};
     }
     std::vector<std::string> names;
-    for (const NamedAlgorithm& algorithm : named_algorithms()) {
+    for (const feature_registration::NamedAlgorithm& algorithm : feature_registration::named_algorithms()) {
       const bool gpf = algorithm.ablation == "phi" || algorithm.ablation == "iterations";
       const bool ransac = algorithm.ablation == "roles" || algorithm.ablation == "local";
       if (word == "all" || (word == "gpf-ablation" && gpf) || (word == "ransac-ablation" && ransac)) {
@@ -96,23 +99,24 @@ class Collection {
     return all;
   }
 
-  void add(std::unique_ptr<RegistrationAlgorithm> algorithm) {
+  void add(std::unique_ptr<evaluation::RegistrationAlgorithm> algorithm) {
     const std::string name = algorithm->name();
     list_.push_back(std::move(algorithm));
     for (const std::string& method : arguments_.refine) {
-      list_.push_back(make_refined_algorithm(name, method));
+      list_.push_back(evaluation::make_refined_algorithm(name, method));
     }
   }
 
   const EvaluateArguments& arguments_;
-  const AppOptions& options_;
-  const EvaluatedSet& set_;
-  AlgorithmList list_;
+  const workflows::ProgramOptions& options_;
+  const evaluation::EvaluatedSet& set_;
+  evaluation::AlgorithmList list_;
 };
 
 }  // namespace
 
-AlgorithmList make_algorithms(const EvaluateArguments& arguments, const AppOptions& options, const EvaluatedSet& set) {
+evaluation::AlgorithmList make_algorithms(const EvaluateArguments& arguments, const workflows::ProgramOptions& options,
+                                          const evaluation::EvaluatedSet& set) {
   return Collection(arguments, options, set).all();
 }
 

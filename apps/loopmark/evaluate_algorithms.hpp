@@ -9,6 +9,7 @@ namespace loopmark::app {
 
 /// What competes, in the order of the tables: motions files, the algorithms by name, foreign programs, and each of
 /// them once more for every refinement. Throws InputError naming what does not exist.
-AlgorithmList make_algorithms(const EvaluateArguments& arguments, const AppOptions& options, const EvaluatedSet& set);
+evaluation::AlgorithmList make_algorithms(const EvaluateArguments& arguments, const workflows::ProgramOptions& options,
+                                          const evaluation::EvaluatedSet& set);
 
 }  // namespace loopmark::app

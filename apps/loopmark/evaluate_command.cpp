@@ -81,7 +81,7 @@ void set_up_merge(CLI::App& command, MergeArguments& a, std::function<int()>& ch
   merge->callback([&a, &chosen] {
     chosen = [&a] {
       const std::filesystem::path target = a.output.empty() ? a.results.front() : a.output;
-      const StoredResult result = merge_results(a.results, target);
+      const evaluation::StoredResult result = evaluation::merge_results(a.results, target);
       write_evaluation_report(target, result, {}, {}, 0);
       print_overview(result);
       return 0;
@@ -111,15 +111,15 @@ void set_up_compare(CLI::App& command, CompareArguments& a, std::function<int()>
 
 }  // namespace
 
-void print_overview(const StoredResult& result) {
-  const auto summaries = summarise_all(result.outcomes, result.experiment.algorithms, result.set);
-  std::printf("%s\n", to_markdown(overview_table(result.experiment, summaries)).c_str());
-  const TextTable times = times_table(summaries);
+void print_overview(const evaluation::StoredResult& result) {
+  const auto summaries = evaluation::summarise_all(result.outcomes, result.experiment.algorithms, result.set);
+  std::printf("%s\n", text::to_markdown(evaluation::overview_table(result.experiment, summaries)).c_str());
+  const text::TextTable times = evaluation::times_table(summaries);
   if (!times.rows.empty()) {
-    std::printf("%s\n", to_markdown(times).c_str());
+    std::printf("%s\n", text::to_markdown(times).c_str());
   }
   if (result.experiment.negatives > 0) {
-    std::printf("%s\n", to_markdown(certainty_table(summaries)).c_str());
+    std::printf("%s\n", text::to_markdown(evaluation::certainty_table(summaries)).c_str());
   }
 }
 

@@ -5,9 +5,9 @@
 #include "evaluate_paper.hpp"
 #include "evaluate_report.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/evaluation/result_tables.hpp"
 #include "loopmark/report/page.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Both results in one, the algorithms marked by where they come from.
-StoredResult side_by_side(const CompareArguments& a) {
-  StoredResult joined = read_result(a.first);
-  const StoredResult second = read_result(a.second);
+evaluation::StoredResult side_by_side(const CompareArguments& a) {
+  evaluation::StoredResult joined = evaluation::read_result(a.first);
+  const evaluation::StoredResult second = evaluation::read_result(a.second);
   if (!joined.experiment.same_task(second.experiment)) {
     throw InputError(a.second.string(), "", "another set or criterion than " + a.first.string(),
                      "only results of the same pairs can be compared");
@@ -26,14 +26,14 @@ StoredResult side_by_side(const CompareArguments& a) {
   for (std::string& name : joined.experiment.algorithms) {
     mark(name, "A");
   }
-  for (Outcome& outcome : joined.outcomes) {
+  for (evaluation::Outcome& outcome : joined.outcomes) {
     mark(outcome.algorithm, "A");
   }
   for (std::string name : second.experiment.algorithms) {
     mark(name, "B");
     joined.experiment.algorithms.push_back(name);
   }
-  for (Outcome outcome : second.outcomes) {
+  for (evaluation::Outcome outcome : second.outcomes) {
     mark(outcome.algorithm, "B");
     joined.outcomes.push_back(std::move(outcome));
   }
@@ -41,28 +41,29 @@ StoredResult side_by_side(const CompareArguments& a) {
 }
 
 /// One row a pair, with success and errors of every algorithm.
-TextTable pair_table(const StoredResult& joined) {
-  TextTable table{"compare", "Pair by pair", {"Pair", "Frames"}, {}, ""};
+text::TextTable pair_table(const evaluation::StoredResult& joined) {
+  text::TextTable table{"compare", "Pair by pair", {"Pair", "Frames"}, {}, ""};
   for (std::size_t i = 0; i < joined.set.size(); ++i) {
     table.rows.push_back({std::to_string(i), to_string(joined.set.key(i))});
   }
   for (const std::string& name : joined.experiment.algorithms) {
     table.columns.insert(table.columns.end(), {name, "TE (m)", "RE (deg)"});
   }
-  for (const Outcome& outcome : joined.outcomes) {
+  for (const evaluation::Outcome& outcome : joined.outcomes) {
     auto& row = table.rows.at(outcome.pair);
     const std::string verdict = outcome.negative  ? to_string(outcome.answer.status)
                                 : outcome.success ? "right"
                                                   : "wrong";
-    row.insert(row.end(), {verdict, fixed(outcome.error.translation_m, 3), fixed(outcome.error.rotation_deg, 3)});
+    row.insert(row.end(),
+               {verdict, text::fixed(outcome.error.translation_m, 3), text::fixed(outcome.error.rotation_deg, 3)});
   }
   return table;
 }
 
-std::string csv_of(const TextTable& table) { return report_table(table).csv(); }
+std::string csv_of(const text::TextTable& table) { return report_table(table).csv(); }
 
 /// Prints the pairs on which algorithms disagree.
-void print_disagreements(const StoredResult& joined, const TextTable& table) {
+void print_disagreements(const evaluation::StoredResult& joined, const text::TextTable& table) {
   std::size_t differing = 0;
   for (const auto& row : table.rows) {
     bool differs = false;
@@ -83,20 +84,21 @@ void print_disagreements(const StoredResult& joined, const TextTable& table) {
 }  // namespace
 
 int compare_results(const CompareArguments& a) {
-  const StoredResult joined = side_by_side(a);
-  const auto summaries = summarise_all(joined.outcomes, joined.experiment.algorithms, joined.set);
-  const TextTable overview = overview_table(joined.experiment, summaries);
-  const TextTable tests = paired_table(paired_tests(joined.outcomes, joined.experiment.algorithms));
-  const TextTable pairs = pair_table(joined);
-  std::printf("A: %s\nB: %s\n\n%s\n%s\n", a.first.c_str(), a.second.c_str(), to_markdown(overview).c_str(),
-              to_markdown(tests).c_str());
+  const evaluation::StoredResult joined = side_by_side(a);
+  const auto summaries = evaluation::summarise_all(joined.outcomes, joined.experiment.algorithms, joined.set);
+  const text::TextTable overview = evaluation::overview_table(joined.experiment, summaries);
+  const text::TextTable tests =
+      evaluation::paired_table(evaluation::paired_tests(joined.outcomes, joined.experiment.algorithms));
+  const text::TextTable pairs = pair_table(joined);
+  std::printf("A: %s\nB: %s\n\n%s\n%s\n", a.first.c_str(), a.second.c_str(), text::to_markdown(overview).c_str(),
+              text::to_markdown(tests).c_str());
   print_disagreements(joined, pairs);
   if (!a.output.empty()) {
     fs::create_directories(a.output);
-    write_file_atomically(a.output / "compare.csv", csv_of(pairs));
+    storage::write_file_atomically(a.output / "compare.csv", csv_of(pairs));
     report::Page page("Two results side by side", "A: " + a.first.string() + "; B: " + a.second.string());
     page.table(report_table(overview)).table(report_table(tests)).table(report_table(pairs));
-    write_file_atomically(a.output / "compare.html", page.html());
+    storage::write_file_atomically(a.output / "compare.html", page.html());
   }
   return 0;
 }

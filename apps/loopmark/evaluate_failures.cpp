@@ -14,15 +14,16 @@ namespace loopmark::app {
 namespace {
 
 /// What failed, by pair: the outcomes in the order of the algorithms.
-using FailuresOfPairs = std::map<std::size_t, std::vector<const Outcome*>>;
+using FailuresOfPairs = std::map<std::size_t, std::vector<const evaluation::Outcome*>>;
 
-bool has_failed(const Outcome& outcome) {
-  return outcome.negative ? outcome.answer.status == AnswerStatus::kAnswered : !outcome.success;
+bool has_failed(const evaluation::Outcome& outcome) {
+  return outcome.negative ? outcome.answer.status == evaluation::AnswerStatus::kAnswered : !outcome.success;
 }
 
-std::vector<const Outcome*> failures_of(const StoredResult& result, const std::string& algorithm) {
-  std::vector<const Outcome*> failures;
-  for (const Outcome& outcome : result.outcomes) {
+std::vector<const evaluation::Outcome*> failures_of(const evaluation::StoredResult& result,
+                                                    const std::string& algorithm) {
+  std::vector<const evaluation::Outcome*> failures;
+  for (const evaluation::Outcome& outcome : result.outcomes) {
     if (outcome.algorithm == algorithm && has_failed(outcome)) {
       failures.push_back(&outcome);
     }
@@ -30,13 +31,14 @@ std::vector<const Outcome*> failures_of(const StoredResult& result, const std::s
   return failures;
 }
 
-report::Table failure_list(const StoredResult& result, const std::vector<const Outcome*>& failures) {
+report::Table failure_list(const evaluation::StoredResult& result,
+                           const std::vector<const evaluation::Outcome*>& failures) {
   report::Table table(
       {"Pair", "Frames", "Status", "TE (m)", "RE (deg)", "P(correct)", "Distance (m)", "Overlap", "Note"},
       "Failed pairs");
-  for (const Outcome* outcome : failures) {
+  for (const evaluation::Outcome* outcome : failures) {
     const bool negative = outcome->negative;
-    const RegistrationPair* pair = negative ? nullptr : &result.set.pairs[outcome->pair];
+    const pair_sets::RegistrationPair* pair = negative ? nullptr : &result.set.pairs[outcome->pair];
     table.row({report::count_cell(outcome->pair), to_string(result.set.key(outcome->pair)),
                negative ? "false accept" : to_string(outcome->answer.status),
                report::number_cell(outcome->error.translation_m, 2),
@@ -49,12 +51,12 @@ report::Table failure_list(const StoredResult& result, const std::vector<const O
 }
 
 /// Up to three answers that differ by more than a metre or five degrees, under the algorithm that gave each first.
-std::vector<report::MotionPanel> answers_of(const std::vector<const Outcome*>& failures) {
+std::vector<report::MotionPanel> answers_of(const std::vector<const evaluation::Outcome*>& failures) {
   constexpr std::size_t kMost = 3;
   constexpr double kAlikeM = 1.0;
   constexpr double kAlikeDeg = 5.0;
   std::vector<report::MotionPanel> panels;
-  for (const Outcome* outcome : failures) {
+  for (const evaluation::Outcome* outcome : failures) {
     const bool known = std::any_of(panels.begin(), panels.end(), [&](const report::MotionPanel& panel) {
       const PoseError apart = pose_error(outcome->answer.T_target_source, panel.T_target_source);
       return apart.translation_m < kAlikeM && apart.rotation_deg < kAlikeDeg;
@@ -67,11 +69,12 @@ std::vector<report::MotionPanel> answers_of(const std::vector<const Outcome*>& f
 }
 
 /// Loads and draws one failed pair.
-report::Image picture_of(std::size_t index, const std::vector<const Outcome*>& failures, const StoredResult& result,
-                         const ScanLoader& load, const std::vector<Pose>& perturbations) {
+report::Image picture_of(std::size_t index, const std::vector<const evaluation::Outcome*>& failures,
+                         const evaluation::StoredResult& result, const evaluation::ScanLoader& load,
+                         const std::vector<Pose>& perturbations) {
   constexpr double kVoxelM = 0.4;
   constexpr std::size_t kPanelWidth = 320;
-  const PairKey& key = result.set.key(index);
+  const pair_sets::PairKey& key = result.set.key(index);
   PointCloud source = load(key.session, key.source);
   if (index < perturbations.size()) {
     source = transformed(source, perturbations[index]);
@@ -80,12 +83,12 @@ report::Image picture_of(std::size_t index, const std::vector<const Outcome*>& f
   if (index < result.set.pairs.size()) {
     panels.push_back({"true", result.set.pairs[index].T_target_source});
   }
-  return report::motions_picture(voxel_downsampled(source, kVoxelM).points,
-                                 voxel_downsampled(load(key.target_session, key.target), kVoxelM).points, panels,
+  return report::motions_picture(cloud::voxel_downsampled(source, kVoxelM).points,
+                                 cloud::voxel_downsampled(load(key.target_session, key.target), kVoxelM).points, panels,
                                  kPanelWidth * std::max<std::size_t>(2, panels.size()));
 }
 
-std::string errors_of(const Outcome& outcome) {
+std::string errors_of(const evaluation::Outcome& outcome) {
   char text[160];
   if (!outcome.answer.has_motion()) {
     return outcome.algorithm + ": " + to_string(outcome.answer.status);
@@ -104,11 +107,12 @@ std::string errors_of(const Outcome& outcome) {
   return all;
 }
 
-std::string caption_of(std::size_t index, const std::vector<const Outcome*>& failures, const StoredResult& result) {
+std::string caption_of(std::size_t index, const std::vector<const evaluation::Outcome*>& failures,
+                       const evaluation::StoredResult& result) {
   std::string text = "Pair " + std::to_string(index) + " (" + to_string(result.set.key(index)) + ")";
   if (index < result.set.pairs.size()) {
     char facts[96];
-    const RegistrationPair& pair = result.set.pairs[index];
+    const pair_sets::RegistrationPair& pair = result.set.pairs[index];
     std::snprintf(facts, sizeof facts, ", %.1f m apart, overlap %.2f", pair.motion.head<3>().norm(),
                   pair.overlap_symmetric);
     text += facts;
@@ -123,8 +127,8 @@ std::string caption_of(std::size_t index, const std::vector<const Outcome*>& fai
 }
 
 /// A picture for each, drawn a few at a time: the memory does not grow with their number.
-void add_pictures(report::Page& page, const FailuresOfPairs& failed, const StoredResult& result, const ScanLoader& load,
-                  const std::vector<Pose>& perturbations, std::size_t pictures) {
+void add_pictures(report::Page& page, const FailuresOfPairs& failed, const evaluation::StoredResult& result,
+                  const evaluation::ScanLoader& load, const std::vector<Pose>& perturbations, std::size_t pictures) {
   constexpr std::size_t kAtOnce = 16;
   std::vector<FailuresOfPairs::const_iterator> batch;
   std::vector<report::Image> images;
@@ -146,13 +150,13 @@ void add_pictures(report::Page& page, const FailuresOfPairs& failed, const Store
 
 }  // namespace
 
-void add_failures(report::Page& page, const StoredResult& result, const ScanLoader& load,
+void add_failures(report::Page& page, const evaluation::StoredResult& result, const evaluation::ScanLoader& load,
                   const std::vector<Pose>& perturbations, std::size_t pictures) {
   page.heading("Failures");
   FailuresOfPairs failed;
   for (const std::string& algorithm : result.experiment.algorithms) {
-    const std::vector<const Outcome*> failures = failures_of(result, algorithm);
-    for (const Outcome* outcome : failures) {
+    const std::vector<const evaluation::Outcome*> failures = failures_of(result, algorithm);
+    for (const evaluation::Outcome* outcome : failures) {
       failed[outcome->pair].push_back(outcome);
     }
     if (!failures.empty()) {

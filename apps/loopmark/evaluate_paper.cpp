@@ -10,10 +10,10 @@
 
 #include "evaluate_report.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/evaluation/paper_tables.hpp"
-#include "loopmark/evaluation/set_statistics.hpp"
+#include "loopmark/pair_sets/set_statistics.hpp"
 #include "loopmark/report/page.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 /// A table and the plots that go with it.
 struct Figure {
-  TextTable table;
+  text::TextTable table;
   std::vector<report::Plot> plots;
 };
 
@@ -33,15 +33,16 @@ std::pair<std::string, std::string> named_input(const std::string& text) {
                                      : std::pair{text.substr(0, equals), text.substr(equals + 1)};
 }
 
-StoredResult first_result(const PaperArguments& a) { return read_result(a.inputs.front()); }
+evaluation::StoredResult first_result(const PaperArguments& a) { return evaluation::read_result(a.inputs.front()); }
 
-std::vector<DomainResult> domain_results(const PaperArguments& a) {
-  std::vector<DomainResult> results;
+std::vector<evaluation::DomainResult> domain_results(const PaperArguments& a) {
+  std::vector<evaluation::DomainResult> results;
   for (const std::string& input : a.inputs) {
     const auto [name, path] = named_input(input);
     const std::size_t colon = name.find(':');
     const std::string train = colon == std::string::npos ? "-" : name.substr(colon + 1);
-    for (DomainResult& domain : split_by_domain(name.substr(0, colon), train, read_result(path))) {
+    for (evaluation::DomainResult& domain :
+         evaluation::split_by_domain(name.substr(0, colon), train, evaluation::read_result(path))) {
       results.push_back(std::move(domain));
     }
   }
@@ -51,17 +52,17 @@ std::vector<DomainResult> domain_results(const PaperArguments& a) {
 std::vector<double> as_doubles(const std::vector<std::size_t>& counts) { return {counts.begin(), counts.end()}; }
 
 Figure sets_figure(const PaperArguments& a) {
-  std::vector<std::pair<std::string, std::vector<RegistrationPair>>> sets;
+  std::vector<std::pair<std::string, std::vector<pair_sets::RegistrationPair>>> sets;
   for (const std::string& input : a.inputs) {
     const auto [name, path] = named_input(input);
-    sets.emplace_back(name, read_pair_set(path));
+    sets.emplace_back(name, pair_sets::read_pair_set(path));
   }
-  Figure figure{paper_sets_table(sets), {}};
-  for (const PairQuantity& quantity : pair_quantities()) {
+  Figure figure{evaluation::paper_sets_table(sets), {}};
+  for (const pair_sets::PairQuantity& quantity : pair_sets::pair_quantities()) {
     report::Plot plot(quantity.name, quantity.name, "pairs [%]");
     plot.size(420, 260);
     for (const auto& [name, pairs] : sets) {
-      std::vector<double> shares = as_doubles(counts_in_bins(pairs, quantity));
+      std::vector<double> shares = as_doubles(pair_sets::counts_in_bins(pairs, quantity));
       for (double& share : shares) {
         share *= 100.0 / static_cast<double>(pairs.size());
       }
@@ -75,10 +76,10 @@ Figure sets_figure(const PaperArguments& a) {
 }
 
 Figure failures_figure(const PaperArguments& a) {
-  const StoredResult result = first_result(a);
+  const evaluation::StoredResult result = first_result(a);
   const std::string algorithm = a.algorithm.empty() ? result.experiment.algorithms.front() : a.algorithm;
-  Figure figure{paper_failures_table(result, algorithm), {}};
-  for (const FailureHistogram& histogram : failure_histograms(result, algorithm)) {
+  Figure figure{evaluation::paper_failures_table(result, algorithm), {}};
+  for (const evaluation::FailureHistogram& histogram : evaluation::failure_histograms(result, algorithm)) {
     std::vector<double> all(histogram.successes.size());
     std::vector<double> ratio(histogram.successes.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -98,17 +99,17 @@ Figure failures_figure(const PaperArguments& a) {
 }
 
 /// Recall against time of the variants with, or without, a refinement, as the paper draws them side by side.
-std::optional<report::Plot> hulls_plot(const std::vector<Variant>& variants, bool refined) {
+std::optional<report::Plot> hulls_plot(const std::vector<evaluation::Variant>& variants, bool refined) {
   report::Plot plot(refined ? "With refinement: hulls of repeated runs" : "Algorithm only: hulls of repeated runs",
                     "mean seconds a pair, the paper's accounting", "recall [%]");
   plot.size(560, 420);
   std::size_t colour = 0;
-  for (const Variant& variant : variants) {
+  for (const evaluation::Variant& variant : variants) {
     if ((variant.name.find('+') != std::string::npos) != refined) {
       continue;
     }
     std::vector<double> x, y;
-    for (const RunPoint& point : variant.hull) {
+    for (const evaluation::RunPoint& point : variant.hull) {
       x.push_back(point.seconds);
       y.push_back(100.0 * point.recall);
     }
@@ -126,10 +127,10 @@ std::optional<report::Plot> hulls_plot(const std::vector<Variant>& variants, boo
 }
 
 Figure ablation_figure(const PaperArguments& a) {
-  const StoredResult result = first_result(a);
-  Figure figure{paper_ablation_table(result), {}};
+  const evaluation::StoredResult result = first_result(a);
+  Figure figure{evaluation::paper_ablation_table(result), {}};
   for (const bool refined : {false, true}) {
-    if (const auto plot = hulls_plot(variants_of(result), refined)) {
+    if (const auto plot = hulls_plot(evaluation::variants_of(result), refined)) {
       figure.plots.push_back(*plot);
     }
   }
@@ -142,27 +143,27 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> table = {
       {"evaluation",
        [](const PaperArguments& a) {
-         return Figure{paper_evaluation_table(first_result(a), false), {}};
+         return Figure{evaluation::paper_evaluation_table(first_result(a), false), {}};
        }},
       {"cross-domain",
        [](const PaperArguments& a) {
-         return Figure{paper_evaluation_table(first_result(a), true), {}};
+         return Figure{evaluation::paper_evaluation_table(first_result(a), true), {}};
        }},
       {"matrix",
        [](const PaperArguments& a) {
-         return Figure{paper_matrix_table(domain_results(a)), {}};
+         return Figure{evaluation::paper_matrix_table(domain_results(a)), {}};
        }},
       {"running-times",
        [](const PaperArguments& a) {
-         return Figure{paper_times_table(domain_results(a)), {}};
+         return Figure{evaluation::paper_times_table(domain_results(a)), {}};
        }},
       {"match-sizes",
        [](const PaperArguments& a) {
-         return Figure{paper_match_sizes_table(domain_results(a)), {}};
+         return Figure{evaluation::paper_match_sizes_table(domain_results(a)), {}};
        }},
       {"refinement",
        [](const PaperArguments& a) {
-         return Figure{paper_refinement_table(first_result(a)), {}};
+         return Figure{evaluation::paper_refinement_table(first_result(a)), {}};
        }},
       {"ransac-ablation", ablation_figure},
       {"gpf-ablation", ablation_figure},
@@ -173,15 +174,15 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
 
 void write_figure(const fs::path& folder, const std::string& name, const Figure& figure) {
   fs::create_directories(folder);
-  write_file_atomically(folder / (name + ".md"), to_markdown(figure.table));
-  write_file_atomically(folder / (name + ".tex"), to_latex(figure.table));
+  storage::write_file_atomically(folder / (name + ".md"), text::to_markdown(figure.table));
+  storage::write_file_atomically(folder / (name + ".tex"), text::to_latex(figure.table));
   report::Page page(figure.table.caption);
   page.table(report_table(figure.table)).paragraph(figure.table.note);
   for (std::size_t i = 0; i < figure.plots.size(); i += 2) {
     page.plots({figure.plots.begin() + static_cast<std::ptrdiff_t>(i),
                 figure.plots.begin() + static_cast<std::ptrdiff_t>(std::min(i + 2, figure.plots.size()))});
   }
-  write_file_atomically(folder / (name + ".html"), page.html());
+  storage::write_file_atomically(folder / (name + ".html"), page.html());
 }
 
 }  // namespace
@@ -200,7 +201,7 @@ int print_paper_table(const PaperArguments& a) {
     throw InputError("no table of the paper is called " + a.table);
   }
   const Figure figure = maker->second(a);
-  std::printf("%s", to_markdown(figure.table).c_str());
+  std::printf("%s", text::to_markdown(figure.table).c_str());
   if (!a.output.empty()) {
     write_figure(a.output, a.table, figure);
     std::printf("\nwritten to %s (%s.md, .tex, .html)\n", a.output.c_str(), a.table.c_str());

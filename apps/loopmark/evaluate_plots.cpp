@@ -13,48 +13,52 @@ using report::Style;
 namespace {
 
 /// The middle of a bin, for the axis; the last bin is open.
-double middle_of(const RecallBin& bin) { return 0.5 * (bin.low + std::min(bin.high, 2.0 * bin.low + 10.0)); }
+double middle_of(const evaluation::RecallBin& bin) {
+  return 0.5 * (bin.low + std::min(bin.high, 2.0 * bin.low + 10.0));
+}
 
 /// How far apart along x the intervals of neighbouring algorithms stand, so that none hides another.
-double step_beside(const std::vector<RecallBin>& bins) {
+double step_beside(const std::vector<evaluation::RecallBin>& bins) {
   constexpr double kShareOfAxis = 0.012;
   return bins.empty() ? 0.0 : kShareOfAxis * (middle_of(bins.back()) - middle_of(bins.front()));
 }
 
 }  // namespace
 
-report::Plot recall_plot(const std::vector<AlgorithmSummary>& summaries, const std::string& title,
-                         const std::string& quantity, std::vector<RecallBin> AlgorithmSummary::*bins) {
-  Plot plot(title, quantity, "recall [%]");
+report::Plot recall_plot(const std::vector<evaluation::AlgorithmSummary>& summaries, const std::string& title,
+                         const std::string& quantity,
+                         std::vector<evaluation::RecallBin> evaluation::AlgorithmSummary::*bins) {
+  report::Plot plot(title, quantity, "recall [%]");
   plot.y_range(-3.0, 103.0).size(520, 340);
   for (std::size_t a = 0; a < summaries.size(); ++a) {
     const double beside = step_beside(summaries[a].*bins) *
                           (static_cast<double>(a) - 0.5 * (static_cast<double>(summaries.size()) - 1.0));
     std::vector<double> x, y, low, high;
-    for (const RecallBin& bin : summaries[a].*bins) {
+    for (const evaluation::RecallBin& bin : summaries[a].*bins) {
       if (bin.pairs > 0) {
-        const Interval interval = wilson_interval(bin.successes, bin.pairs);
+        const statistics::Interval interval = statistics::wilson_interval(bin.successes, bin.pairs);
         x.push_back(middle_of(bin) + beside);
         y.push_back(100.0 * bin.recall());
         low.push_back(100.0 * interval.low);
         high.push_back(100.0 * interval.high);
       }
     }
-    Style style;
+    report::Style style;
     style.colour = report::palette(a);
     plot.line(summaries[a].name, x, y, style).points("", x, y, style).intervals("", x, low, high, style);
   }
   return plot;
 }
 
-report::Plot error_plot(const StoredResult& result, const std::vector<AlgorithmSummary>& summaries, bool rotation) {
-  Plot plot(rotation ? "Rotation error" : "Translation error", rotation ? "RE below [deg]" : "TE below [m]",
-            "pairs [%]");
+report::Plot error_plot(const evaluation::StoredResult& result,
+                        const std::vector<evaluation::AlgorithmSummary>& summaries, bool rotation) {
+  report::Plot plot(rotation ? "Rotation error" : "Translation error", rotation ? "RE below [deg]" : "TE below [m]",
+                    "pairs [%]");
   plot.y_range(0.0, 100.0).x_range(0.0, rotation ? 10.0 : 2.0).size(520, 340);
-  for (const AlgorithmSummary& summary : summaries) {
+  for (const evaluation::AlgorithmSummary& summary : summaries) {
     const std::string& name = summary.name;
     std::vector<double> errors;
-    for (const Outcome& outcome : result.outcomes) {
+    for (const evaluation::Outcome& outcome : result.outcomes) {
       if (outcome.algorithm == name && !outcome.negative) {
         errors.push_back(rotation ? outcome.error.rotation_deg : outcome.error.translation_m);
       }
@@ -71,15 +75,15 @@ report::Plot error_plot(const StoredResult& result, const std::vector<AlgorithmS
   return plot;
 }
 
-report::Plot time_plot(const std::vector<AlgorithmSummary>& summaries) {
-  Plot plot("Recall against time", "median seconds a pair, the paper's accounting", "recall [%]");
+report::Plot time_plot(const std::vector<evaluation::AlgorithmSummary>& summaries) {
+  report::Plot plot("Recall against time", "median seconds a pair, the paper's accounting", "recall [%]");
   plot.log_x().size(520, 340);
   for (std::size_t a = 0; a < summaries.size(); ++a) {
     const double seconds = summaries[a].paper_seconds.median;
     if (std::isnan(seconds) || seconds <= 0.0) {
       continue;
     }
-    Style style;
+    report::Style style;
     style.colour = report::palette(a);
     style.radius = 5.0;
     plot.points(summaries[a].name, {seconds}, {100.0 * summaries[a].recall()}, style);
@@ -89,12 +93,12 @@ report::Plot time_plot(const std::vector<AlgorithmSummary>& summaries) {
   return plot;
 }
 
-report::Plot precision_recall_plot(const std::vector<AlgorithmSummary>& summaries) {
-  Plot plot("Precision and recall of the answers", "recall [%]", "precision [%]");
+report::Plot precision_recall_plot(const std::vector<evaluation::AlgorithmSummary>& summaries) {
+  report::Plot plot("Precision and recall of the answers", "recall [%]", "precision [%]");
   plot.x_range(0.0, 100.0).y_range(0.0, 103.0).size(520, 340);
-  for (const AlgorithmSummary& summary : summaries) {
+  for (const evaluation::AlgorithmSummary& summary : summaries) {
     std::vector<double> x, y;
-    for (const PrecisionRecallPoint& point : summary.precision_recall) {
+    for (const statistics::PrecisionRecallPoint& point : summary.precision_recall) {
       x.push_back(100.0 * point.recall);
       y.push_back(100.0 * point.precision);
     }
@@ -105,22 +109,22 @@ report::Plot precision_recall_plot(const std::vector<AlgorithmSummary>& summarie
   return plot;
 }
 
-report::Plot reliability_plot(const std::vector<AlgorithmSummary>& summaries) {
-  Plot plot("Reliability", "stated probability", "share right");
-  Style honest;
+report::Plot reliability_plot(const std::vector<evaluation::AlgorithmSummary>& summaries) {
+  report::Plot plot("Reliability", "stated probability", "share right");
+  report::Style honest;
   honest.colour = report::kGrey;
   honest.dashed = true;
   plot.x_range(0.0, 1.0).y_range(0.0, 1.0).size(520, 340).line("honest", {0.0, 1.0}, {0.0, 1.0}, honest);
   for (std::size_t a = 0; a < summaries.size(); ++a) {
     std::vector<double> x, y;
-    for (const ReliabilityBin& bin : summaries[a].reliability) {
+    for (const statistics::ReliabilityBin& bin : summaries[a].reliability) {
       if (bin.count > 0) {
         x.push_back(bin.mean_p);
         y.push_back(bin.share_correct);
       }
     }
     if (!x.empty()) {
-      Style style;
+      report::Style style;
       style.colour = report::palette(a);
       style.radius = 4.0;
       plot.line(summaries[a].name, x, y, style).points("", x, y, style);

@@ -8,9 +8,9 @@
 
 #include "evaluate_failures.hpp"
 #include "evaluate_plots.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/evaluation/result_tables.hpp"
 #include "loopmark/report/page.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -24,7 +24,7 @@ report::Cell cell_of(const std::string& text) {
 }
 
 /// The algorithms whose curves are drawn: those of highest recall, in the order of the result.
-std::vector<AlgorithmSummary> drawn_ones(const std::vector<AlgorithmSummary>& summaries) {
+std::vector<evaluation::AlgorithmSummary> drawn_ones(const std::vector<evaluation::AlgorithmSummary>& summaries) {
   constexpr std::size_t kMost = 8;
   std::vector<std::size_t> order(summaries.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -32,23 +32,26 @@ std::vector<AlgorithmSummary> drawn_ones(const std::vector<AlgorithmSummary>& su
                    [&](std::size_t a, std::size_t b) { return summaries[a].recall() > summaries[b].recall(); });
   order.resize(std::min(kMost, order.size()));
   std::sort(order.begin(), order.end());
-  std::vector<AlgorithmSummary> drawn;
+  std::vector<evaluation::AlgorithmSummary> drawn;
   for (const std::size_t i : order) {
     drawn.push_back(summaries[i]);
   }
   return drawn;
 }
 
-void add_plots(report::Page& page, const StoredResult& result, const std::vector<AlgorithmSummary>& all) {
-  const std::vector<AlgorithmSummary> summaries = drawn_ones(all);
+void add_plots(report::Page& page, const evaluation::StoredResult& result,
+               const std::vector<evaluation::AlgorithmSummary>& all) {
+  const std::vector<evaluation::AlgorithmSummary> summaries = drawn_ones(all);
   page.heading("Recall");
   if (summaries.size() < all.size()) {
     page.paragraph("Drawn are the " + std::to_string(summaries.size()) +
                    " algorithms of highest recall; the tables have all " + std::to_string(all.size()) + ".");
   }
-  page.plots({recall_plot(summaries, "Recall by overlap", "symmetric overlap", &AlgorithmSummary::by_overlap),
-              recall_plot(summaries, "Recall by distance", "distance [m]", &AlgorithmSummary::by_distance)});
-  page.plots({recall_plot(summaries, "Recall by yaw", "|yaw| [deg]", &AlgorithmSummary::by_yaw), time_plot(summaries)});
+  page.plots(
+      {recall_plot(summaries, "Recall by overlap", "symmetric overlap", &evaluation::AlgorithmSummary::by_overlap),
+       recall_plot(summaries, "Recall by distance", "distance [m]", &evaluation::AlgorithmSummary::by_distance)});
+  page.plots({recall_plot(summaries, "Recall by yaw", "|yaw| [deg]", &evaluation::AlgorithmSummary::by_yaw),
+              time_plot(summaries)});
   page.heading("Errors");
   page.plots({error_plot(result, summaries, false), error_plot(result, summaries, true)});
   if (std::any_of(summaries.begin(), summaries.end(), [](const auto& s) { return s.has_scores; })) {
@@ -59,7 +62,7 @@ void add_plots(report::Page& page, const StoredResult& result, const std::vector
 
 }  // namespace
 
-report::Table report_table(const TextTable& table) {
+report::Table report_table(const text::TextTable& table) {
   report::Table out(table.columns, table.caption);
   for (const auto& row : table.rows) {
     std::vector<report::Cell> cells;
@@ -69,15 +72,16 @@ report::Table report_table(const TextTable& table) {
   return out;
 }
 
-void write_evaluation_report(const std::filesystem::path& folder, const StoredResult& result, const ScanLoader& load,
-                             const std::vector<Pose>& perturbations, std::size_t pictures) {
-  const auto summaries = summarise_all(result.outcomes, result.experiment.algorithms, result.set);
-  const auto tests = paired_tests(result.outcomes, result.experiment.algorithms);
+void write_evaluation_report(const std::filesystem::path& folder, const evaluation::StoredResult& result,
+                             const evaluation::ScanLoader& load, const std::vector<Pose>& perturbations,
+                             std::size_t pictures) {
+  const auto summaries = evaluation::summarise_all(result.outcomes, result.experiment.algorithms, result.set);
+  const auto tests = evaluation::paired_tests(result.outcomes, result.experiment.algorithms);
   report::Page page("Registration on " + result.experiment.set_name,
                     std::to_string(result.experiment.pairs) + " pairs, " + std::to_string(result.experiment.negatives) +
-                        " negatives; right below " + fixed(result.experiment.criterion.max_rotation_deg, 1) +
-                        " deg and " + fixed(result.experiment.criterion.max_translation_m, 2) + " m");
-  const auto tables = result_tables(result, summaries, tests);
+                        " negatives; right below " + text::fixed(result.experiment.criterion.max_rotation_deg, 1) +
+                        " deg and " + text::fixed(result.experiment.criterion.max_translation_m, 2) + " m");
+  const auto tables = evaluation::result_tables(result, summaries, tests);
   page.heading("Overview").table(report_table(tables.front())).paragraph(tables.front().note);
   add_plots(page, result, summaries);
   page.heading("Tables");
@@ -88,7 +92,7 @@ void write_evaluation_report(const std::filesystem::path& folder, const StoredRe
     }
   }
   add_failures(page, result, load, perturbations, pictures);
-  write_file_atomically(folder / "report.html", page.html());
+  storage::write_file_atomically(folder / "report.html", page.html());
 }
 
 }  // namespace loopmark::app

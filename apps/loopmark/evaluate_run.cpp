@@ -16,36 +16,36 @@
 namespace loopmark::app {
 namespace {
 
-ExperimentTask make_task(const EvaluateArguments& arguments) {
-  ExperimentTask task;
-  task.set.pairs = read_pair_set(arguments.set);
+evaluation::ExperimentTask make_task(const EvaluateArguments& arguments) {
+  evaluation::ExperimentTask task;
+  task.set.pairs = pair_sets::read_pair_set(arguments.set);
   if (!arguments.negatives.empty()) {
-    task.set.negatives = read_negatives(arguments.negatives);
+    task.set.negatives = pair_sets::read_negatives(arguments.negatives);
   }
   if (!arguments.perturb.empty()) {
-    task.perturbations = read_perturbations(arguments.perturb, task.set.pairs);
+    task.perturbations = pair_sets::read_perturbations(arguments.perturb, task.set.pairs);
   }
   task.set_name = arguments.set.filename().string();
   task.criterion = arguments.criterion;
-  task.shard = shard_from(arguments.shard);
+  task.shard = evaluation::shard_from(arguments.shard);
   task.pairs_at_once = arguments.pairs_at_once == 0 ? thread_count() : arguments.pairs_at_once;
   return task;
 }
 
-std::unique_ptr<Dataset> open_data(const EvaluateArguments& arguments) {
+std::unique_ptr<io::Dataset> open_data(const EvaluateArguments& arguments) {
   std::filesystem::path sessions = arguments.sessions;
   const std::filesystem::path beside = arguments.set.parent_path() / "sessions.txt";
   if (sessions.empty() && std::filesystem::exists(beside)) {
     sessions = beside;
   }
-  return open_dataset(arguments.data, sessions);
+  return io::open_dataset(arguments.data, sessions);
 }
 
 /// Every scan that the shard needs is there; a missing one is told before the work starts.
-void check_frames(const ExperimentTask& task, const Dataset& data) {
+void check_frames(const evaluation::ExperimentTask& task, const io::Dataset& data) {
   for (std::size_t index = 0; index < task.set.size(); ++index) {
     if (task.shard.holds(index)) {
-      const PairKey& key = task.set.key(index);
+      const pair_sets::PairKey& key = task.set.key(index);
       data.frame_index(key.session, key.source);
       data.frame_index(key.target_session, key.target);
     }
@@ -54,7 +54,8 @@ void check_frames(const ExperimentTask& task, const Dataset& data) {
 
 /// The scans of the task, once they are known to be the right ones; empty when nothing needs scans and no
 /// data is given.
-ScanLoader make_loader(const EvaluateArguments& arguments, const AlgorithmList& algorithms, ExperimentTask& task) {
+evaluation::ScanLoader make_loader(const EvaluateArguments& arguments, const evaluation::AlgorithmList& algorithms,
+                                   evaluation::ExperimentTask& task) {
   const bool needed = std::any_of(algorithms.begin(), algorithms.end(), [](const auto& a) { return a->needs_scans(); });
   if (!needed && arguments.data.empty()) {
     return {};
@@ -62,10 +63,10 @@ ScanLoader make_loader(const EvaluateArguments& arguments, const AlgorithmList& 
   if (arguments.data.empty()) {
     throw InputError("--data ROOT is needed: " + algorithms.back()->name() + " works on scans");
   }
-  const std::shared_ptr<Dataset> data = open_data(arguments);
+  const std::shared_ptr<io::Dataset> data = open_data(arguments);
   check_frames(task, *data);
-  const ScanLoader load = [data](int session, int frame) { return data->load(session, frame); };
-  if (!arguments.no_check && match_set_to_scans(task, load)) {
+  const evaluation::ScanLoader load = [data](int session, int frame) { return data->load(session, frame); };
+  if (!arguments.no_check && evaluation::match_set_to_scans(task, load)) {
     std::printf("the motions of %s are of the scans before --perturb: now they include it\n", task.set_name.c_str());
   }
   return load;
@@ -81,17 +82,17 @@ int run_evaluate(const EvaluateArguments& given, const Globals& globals) {
   if (arguments.set.empty() || arguments.output.empty()) {
     throw InputError("loopmark evaluate SET -o RESULT: the pairs file and the result folder are needed (see --help)");
   }
-  ExperimentTask task = make_task(arguments);
-  const AlgorithmList algorithms = make_algorithms(arguments, globals.options(), task.set);
-  const ScanLoader load = make_loader(arguments, algorithms, task);
-  run_experiment(task, algorithms, load, arguments.output);
-  if (!result_is_complete(arguments.output)) {
+  evaluation::ExperimentTask task = make_task(arguments);
+  const evaluation::AlgorithmList algorithms = make_algorithms(arguments, globals.options(), task.set);
+  const evaluation::ScanLoader load = make_loader(arguments, algorithms, task);
+  evaluation::run_experiment(task, algorithms, load, arguments.output);
+  if (!evaluation::result_is_complete(arguments.output)) {
     std::printf("shard %s is done; loopmark evaluate merge %s makes the tables when all shards are\n",
                 arguments.shard.c_str(), arguments.output.c_str());
     return 0;
   }
-  const StoredResult result = read_result(arguments.output);
-  write_products(arguments.output, result);
+  const evaluation::StoredResult result = evaluation::read_result(arguments.output);
+  evaluation::write_products(arguments.output, result);
   write_evaluation_report(arguments.output, result, load, task.perturbations, arguments.pictures);
   print_overview(result);
   std::printf("written to %s (report.html, summary.json, results.csv, tables/)\n", arguments.output.c_str());

@@ -25,7 +25,7 @@ struct EvaluateArguments {
   std::size_t repeats = 1;
   std::filesystem::path negatives;
   std::filesystem::path perturb;
-  SuccessCriterion criterion;
+  evaluation::SuccessCriterion criterion;
   double time_limit_s = 30.0;
   std::size_t pairs_at_once = 0;
   std::string shard = "1/1";
@@ -37,6 +37,6 @@ struct EvaluateArguments {
 int run_evaluate(const EvaluateArguments& arguments, const Globals& globals);
 
 /// Prints the overview of a result.
-void print_overview(const StoredResult& result);
+void print_overview(const evaluation::StoredResult& result);
 
 }  // namespace loopmark::app

@@ -6,9 +6,10 @@
 #include "commands.hpp"
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
-#include "map_job.hpp"
-#include "merge_run.hpp"
-#include "run_in_making.hpp"
+#include "loopmark/workflows/map_job.hpp"
+#include "loopmark/workflows/merge_run.hpp"
+#include "loopmark/workflows/run_in_making.hpp"
+#include "merge_text.hpp"
 
 namespace loopmark::app {
 namespace fs = std::filesystem;
@@ -52,9 +53,9 @@ fs::path drive_beside(const fs::path& run) {
 }
 
 /// The run's options for a log that another sensor may have written.
-AppOptions options_for_log(const fs::path& run, const Globals& globals) {
-  const AppOptions given = globals.options();
-  AppOptions options = config::load<AppOptions>(run / "config.yaml", globals.settings);
+workflows::ProgramOptions options_for_log(const fs::path& run, const Globals& globals) {
+  const workflows::ProgramOptions given = globals.options();
+  workflows::ProgramOptions options = config::load<workflows::ProgramOptions>(run / "config.yaml", globals.settings);
   options.log = given.log;
   options.slam.compensation = given.slam.compensation;
   return options;
@@ -62,12 +63,15 @@ AppOptions options_for_log(const fs::path& run, const Globals& globals) {
 
 /// The run and the log's map as one. Throws InputError, having changed nothing, when the log's drive does not belong;
 /// an earlier drive that no longer hangs together with the others is left out with a warning.
-MergeOutcome join(const ExtendArguments& a, const Globals& globals, const fs::path& drive, fs::path& before) {
-  const MergeInput input = read_runs({a.run, drive});
-  const AppOptions options = config::load<AppOptions>(a.run / "config.yaml", globals.settings);
-  RunInMaking run(a.output.empty() ? RunFolder::revise(a.run) : RunFolder::create(a.output));
-  MergeOutcome outcome =
-      merge_runs(input, run.folder(), options, a.one_frame, {"extend", a.run.string(), a.log.string()});
+workflows::MergeOutcome join(const ExtendArguments& a, const Globals& globals, const fs::path& drive,
+                             fs::path& before) {
+  const workflows::MergeInput input = workflows::read_runs({a.run, drive});
+  const workflows::ProgramOptions options =
+      config::load<workflows::ProgramOptions>(a.run / "config.yaml", globals.settings);
+  workflows::RunInMaking run(a.output.empty() ? map_store::RunFolder::revise(a.run)
+                                              : map_store::RunFolder::create(a.output));
+  workflows::MergeOutcome outcome =
+      workflows::merge_runs(input, run.folder(), options, a.one_frame, {"extend", a.run.string(), a.log.string()});
   if (!outcome.map.summary.drives.back().belongs) {
     throw InputError(outcome.warnings.back());
   }
@@ -85,12 +89,12 @@ int extend(const ExtendArguments& a, const Globals& globals) {
     throw InputError(globals.config_file.string(), "", "the run keeps its own options",
                      "change single ones with --set");
   }
-  read_runs({a.run});  // what is wrong with it is better told before the log is mapped
+  workflows::read_runs({a.run});  // what is wrong with it is better told before the log is mapped
   if (!a.output.empty() && fs::exists(a.output)) {
     throw InputError(a.output.string(), "", "is there already and is never overwritten", "choose another name for -o");
   }
   const fs::path drive = drive_beside(a.output.empty() ? a.run : a.output);
-  start_map(a.log, a.truth, drive, globals, options_for_log(a.run, globals));
+  workflows::start_map(a.log, a.truth, drive, globals.arguments, options_for_log(a.run, globals));
   fs::path before;
   try {
     print_merge(join(a, globals, drive, before));

@@ -9,7 +9,7 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/report/table.hpp"
-#include "loops_run.hpp"
+#include "loopmark/workflows/loops_run.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 struct LoopsArguments {
   std::filesystem::path run;
   std::filesystem::path output;
-  LoopChanges changes;
+  workflows::LoopChanges changes;
   bool maps = false;
   bool csv = false;
 };
@@ -63,12 +63,12 @@ void check_settings(const Globals& globals) {
   }
 }
 
-report::Table loop_table(const OpenedRun& run, const SolvedMap& map) {
+report::Table loop_table(const workflows::OpenedRun& run, const mapping::SolvedMap& map) {
   report::Table table(
       {"source scan", "target scan", "keyframes", "proposed by", "P(correct)", "verdict", "weight", "chi2"});
   for (std::size_t i = 0; i < run.loops.size(); ++i) {
-    const LoopRecord& loop = run.loops[i];
-    const LoopVerdict& verdict = map.loops[i];
+    const map_store::LoopRecord& loop = run.loops[i];
+    const mapping::LoopVerdict& verdict = map.loops[i];
     const std::string word = verdict.accepted ? "accepted" : "rejected";
     table.row({report::count_cell(map.keyframes[loop.source].scan), report::count_cell(map.keyframes[loop.target].scan),
                "k" + std::to_string(loop.source) + "-k" + std::to_string(loop.target), loop.origin,
@@ -79,14 +79,14 @@ report::Table loop_table(const OpenedRun& run, const SolvedMap& map) {
   return table;
 }
 
-void list(const OpenedRun& run, const SolvedMap& map, bool csv) {
+void list(const workflows::OpenedRun& run, const mapping::SolvedMap& map, bool csv) {
   const report::Table table = loop_table(run, map);
   std::fputs((csv ? table.csv() : table.text()).c_str(), stdout);
   if (csv) {
     return;
   }
   const auto accepted =
-      std::count_if(map.loops.begin(), map.loops.end(), [](const LoopVerdict& loop) { return loop.accepted; });
+      std::count_if(map.loops.begin(), map.loops.end(), [](const mapping::LoopVerdict& loop) { return loop.accepted; });
   std::printf(
       "%zd accepted of %zu candidates, %zu decided by a person; %zu keyframes in %zu component%s, solved in %.2f s\n",
       static_cast<std::ptrdiff_t>(accepted), run.loops.size(), run.decisions.size(), map.keyframes.size(),
@@ -111,7 +111,7 @@ std::vector<std::string> words_of(const LoopsArguments& a, const Globals& global
 }
 
 /// How far the poses went, so that a person sees at once what the decision did.
-void print_change(const std::vector<Pose>& before, const SolvedMap& after) {
+void print_change(const std::vector<Pose>& before, const mapping::SolvedMap& after) {
   double largest_m = 0.0;
   std::size_t at = 0;
   for (std::size_t i = 0; i < after.T_map_scan.size(); ++i) {
@@ -123,9 +123,9 @@ void print_change(const std::vector<Pose>& before, const SolvedMap& after) {
 }
 
 /// The poses that the run shows now: solving for them again would take as long as the new solution.
-std::vector<Pose> poses_of(const OpenedRun& run) {
+std::vector<Pose> poses_of(const workflows::OpenedRun& run) {
   const std::filesystem::path file = run.folder / "trajectory.tum";
-  std::vector<Pose> poses = read_trajectory(file).poses;
+  std::vector<Pose> poses = io::read_trajectory(file).poses;
   if (poses.size() != run.scans.size()) {
     throw InputError(file.string(), "",
                      std::to_string(poses.size()) + " poses for " + std::to_string(run.scans.size()) + " scans");
@@ -135,16 +135,16 @@ std::vector<Pose> poses_of(const OpenedRun& run) {
 
 int loops(const LoopsArguments& a, const Globals& globals) {
   check_settings(globals);
-  const LoopChanges& c = a.changes;
-  OpenedRun run = open_run(a.run, globals.settings);
+  const workflows::LoopChanges& c = a.changes;
+  workflows::OpenedRun run = workflows::open_run(a.run, globals.settings);
   if (c.veto.empty() && c.force.empty() && c.forget.empty() && a.output.empty() && !a.maps) {
     list(run, run.solve(), a.csv);
     return 0;
   }
   const std::vector<Pose> before = poses_of(run);
-  apply(c, run);
-  const SolvedMap map = run.solve();
-  const Rewritten done = rewrite(run, map, a.output, a.maps, words_of(a, globals));
+  workflows::apply(c, run);
+  const mapping::SolvedMap map = run.solve();
+  const workflows::Rewritten done = workflows::rewrite(run, map, a.output, a.maps, words_of(a, globals));
   list(run, map, a.csv);
   if (a.csv) {
     return 0;

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "map_job.hpp"
+#include "loopmark/workflows/map_job.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -32,17 +32,18 @@ void declare(CLI::App& command, MapArguments& a) {
   command.footer(kExamples);
 }
 
-MapOutcome start(const MapArguments& a, const Globals& globals) {
+workflows::MapOutcome start(const MapArguments& a, const Globals& globals) {
   if (a.log.empty() || a.output.empty()) {
     throw InputError("loopmark map needs LOG and -o RUN, or --resume RUN (see: loopmark map --help)");
   }
-  return start_map(a.log, a.truth, a.output, globals, globals.options());
+  return workflows::start_map(a.log, a.truth, a.output, globals.arguments, globals.options());
 }
 
 int map(const MapArguments& a, const Globals& globals) {
-  const MapOutcome outcome = a.resume.empty() ? start(a, globals) : resume_map(a.resume, globals);
+  const workflows::MapOutcome outcome =
+      a.resume.empty() ? start(a, globals) : workflows::resume_map(a.resume, globals.arguments);
   const std::filesystem::path run = a.resume.empty() ? a.output : a.resume;
-  std::printf("%s is whole:\n%s", run.c_str(), closing_table(outcome).c_str());
+  std::printf("%s is whole:\n%s", run.c_str(), workflows::closing_table(outcome).c_str());
   std::printf("  map           %s\n  trajectory    %s\n  report        %s\n", (run / "map.bt").c_str(),
               (run / "trajectory.tum").c_str(), (run / "report.html").c_str());
   return 0;

@@ -6,8 +6,9 @@
 #include "commands.hpp"
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
-#include "merge_run.hpp"
-#include "run_in_making.hpp"
+#include "loopmark/workflows/merge_run.hpp"
+#include "loopmark/workflows/run_in_making.hpp"
+#include "merge_text.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -44,12 +45,13 @@ int merge(const MergeArguments& a, const Globals& globals) {
     throw InputError(globals.config_file.string(), "", "merged runs keep the options of the first one",
                      "change single ones with --set");
   }
-  const MergeInput input = read_runs(a.runs);
-  const AppOptions options = config::load<AppOptions>(a.runs.front() / "config.yaml", globals.settings);
+  const workflows::MergeInput input = workflows::read_runs(a.runs);
+  const workflows::ProgramOptions options =
+      config::load<workflows::ProgramOptions>(a.runs.front() / "config.yaml", globals.settings);
   std::vector<std::string> words = {"merge"};
   words.insert(words.end(), a.runs.begin(), a.runs.end());
-  RunInMaking run(RunFolder::create(a.output));
-  MergeOutcome outcome = merge_runs(input, run.folder(), options, a.one_frame, words);
+  workflows::RunInMaking run(map_store::RunFolder::create(a.output));
+  workflows::MergeOutcome outcome = workflows::merge_runs(input, run.folder(), options, a.one_frame, words);
   run.finish();
   outcome.run = run.folder().path();
   print_merge(outcome);

@@ -3,25 +3,26 @@
 #include <cstdio>
 
 #include "loopmark/report/table.hpp"
-#include "merge_run.hpp"
+#include "merge_text.hpp"
 
 namespace loopmark::app {
 
-void print_merge(const MergeOutcome& outcome) {
-  const MapSummary& summary = outcome.map.summary;
+void print_merge(const workflows::MergeOutcome& outcome) {
+  const workflows::MapSummary& summary = outcome.map.summary;
   report::Table drives({"drive", "scans", "keyframes", "in the map", "ATE alone [m]"});
-  for (const DriveSummary& d : summary.drives) {
+  for (const workflows::DriveSummary& d : summary.drives) {
     drives.row({d.name, report::count_cell(d.scans), report::count_cell(d.keyframes),
                 d.belongs ? report::count_cell(d.in_map) : report::Cell("left out"),
                 d.absolute ? report::number_cell(d.absolute->rmse_m, 3) : report::Cell("-")});
   }
-  report::Table joints({"between", "and", "places tried", "best P", "loops", "places compared", "alike"});
-  for (const JointSummary& j : summary.joints) {
-    joints.row({j.first, j.second, report::count_cell(j.candidates), report::number_cell(j.best_p, 3),
-                report::count_cell(j.accepted), report::count_cell(j.checked), report::count_cell(j.agree)});
+  report::Table inter_session_loops({"between", "and", "places tried", "best P", "loops", "places compared", "alike"});
+  for (const workflows::InterSessionSummary& j : summary.inter_session_loops) {
+    inter_session_loops.row({j.first, j.second, report::count_cell(j.candidates), report::number_cell(j.best_p, 3),
+                             report::count_cell(j.accepted), report::count_cell(j.checked),
+                             report::count_cell(j.agree)});
   }
-  std::printf("%s\n%s\n%s is whole:\n%s", drives.text().c_str(), joints.text().c_str(), outcome.run.c_str(),
-              closing_table(outcome.map).c_str());
+  std::printf("%s\n%s\n%s is whole:\n%s", drives.text().c_str(), inter_session_loops.text().c_str(),
+              outcome.run.c_str(), workflows::closing_table(outcome.map).c_str());
   for (const std::string& warning : outcome.warnings) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   }

@@ -7,9 +7,9 @@
 
 #include "commands.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/io/point_files.hpp"
-#include "register_run.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/workflows/register_run.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -41,36 +41,36 @@ struct Arguments {
   bool json = false;
 };
 
-void show(const RegisterRun& run, const Arguments& a) {
-  std::fputs((a.json ? registration_json(run) : registration_text(run)).c_str(), stdout);
+void show(const workflows::RegisterRun& run, const Arguments& a) {
+  std::fputs((a.json ? workflows::registration_json(run) : workflows::registration_text(run)).c_str(), stdout);
   if (!a.picture.empty()) {
-    write_registration_picture(run, a.picture);
+    workflows::write_registration_picture(run, a.picture);
   }
 }
 
 int register_pair(const Arguments& a, const Globals& globals) {
-  const AppOptions options = globals.options();
-  RegisterRun run;
-  run.source = read_point_file(a.source).cloud;
-  run.target = read_point_file(a.target).cloud;
+  const workflows::ProgramOptions options = globals.options();
+  workflows::RegisterRun run;
+  run.source = io::read_point_file(a.source).cloud;
+  run.target = io::read_point_file(a.target).cloud;
   run.source_name = a.source;
   run.target_name = a.target;
   run.algorithm = a.algorithm;
-  run_registration(run, options);
+  workflows::run_registration(run, options);
   show(run, a);
   if (!a.record.empty()) {
-    write_record(run, options, a.record);
+    workflows::write_record(run, options, a.record);
   }
   return 0;
 }
 
 int replay(const Arguments& a, const Globals& globals) {
-  Record record = read_record(a.folder);
-  const RegistrationResult before = record.run.result;
+  workflows::Record record = workflows::read_record(a.folder);
+  const registration::RegistrationResult before = record.run.result;
   if (!globals.config_file.empty() || !globals.settings.empty()) {
     record.options = globals.options();
   }
-  run_registration(record.run, record.options);
+  workflows::run_registration(record.run, record.options);
   show(record.run, a);
   const PoseError change = pose_error(record.run.result.T_target_source, before.T_target_source);
   if (!a.json) {

@@ -11,10 +11,10 @@
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/drive_log.hpp"
 #include "loopmark/io/trajectory.hpp"
-#include "loopmark/slam/relocalization_report.hpp"
-#include "loopmark/slam/run_place_map.hpp"
-#include "loopmark/slam/run_records.hpp"
-#include "map_run.hpp"
+#include "loopmark/localization/relocalization_report.hpp"
+#include "loopmark/localization/run_place_map.hpp"
+#include "loopmark/map_store/run_records.hpp"
+#include "loopmark/workflows/map_run.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -48,19 +48,22 @@ void declare(CLI::App& command, RelocalizeArguments& a) {
   command.footer(kExamples);
 }
 
-std::vector<RelocalizedScan> place_scans(const RelocalizeArguments& a, const AppOptions& options, const DriveLog& log) {
-  const RunFolder run = RunFolder::open(a.run);
-  const AppOptions made_with = config::load<AppOptions>(run / "config.yaml", {});
-  const SolvedMap solved = solve_map(read_scan_records(run), read_loop_records(run), made_with.slam,
-                                     made_with.pose_graph, read_loop_decisions(run));
-  const auto map = open_place_map(run, solved, options.relocalization, options.registration);
-  const Compensation compensation = compensation_of(log, options.slam);
+std::vector<localization::RelocalizedScan> place_scans(const RelocalizeArguments& a,
+                                                       const workflows::ProgramOptions& options,
+                                                       const io::DriveLog& log) {
+  const map_store::RunFolder run = map_store::RunFolder::open(a.run);
+  const workflows::ProgramOptions made_with = config::load<workflows::ProgramOptions>(run / "config.yaml", {});
+  const mapping::SolvedMap solved =
+      mapping::solve_map(map_store::read_scan_records(run), map_store::read_loop_records(run), made_with.slam,
+                         made_with.pose_graph, map_store::read_loop_decisions(run));
+  const auto map = localization::open_place_map(run, solved, options.relocalization, options.registration);
+  const odometry::Compensation compensation = workflows::compensation_of(log, options.slam);
   const auto new_relocalizer = [&] {
-    return std::make_unique<Relocalizer>(map, options.relocalization, options.odometry, compensation,
-                                         log.info().sweep.value_or(SweepModel{}));
+    return std::make_unique<localization::Relocalizer>(map, options.relocalization, options.odometry, compensation,
+                                                       log.info().sweep.value_or(cloud::SweepModel{}));
   };
-  std::unique_ptr<Relocalizer> relocalizer = new_relocalizer();
-  std::vector<RelocalizedScan> placed;
+  std::unique_ptr<localization::Relocalizer> relocalizer = new_relocalizer();
+  std::vector<localization::RelocalizedScan> placed;
   Progress progress("scans", (log.size() + a.every - 1) / a.every);
   for (std::size_t i = 0; i < log.size(); i += a.every) {
     check_interrupt();
@@ -69,8 +72,8 @@ std::vector<RelocalizedScan> place_scans(const RelocalizeArguments& a, const App
     }
     try {
       placed.push_back(relocalizer->add(log.read(i)));
-    } catch (const DamagedScan& damage) {
-      RelocalizedScan none;
+    } catch (const io::DamagedScan& damage) {
+      localization::RelocalizedScan none;
       none.scan = i;
       none.stamp_s = log.stamp_s(i);
       none.reason = damage.what();
@@ -83,17 +86,17 @@ std::vector<RelocalizedScan> place_scans(const RelocalizeArguments& a, const App
 
 /// What answers are judged by.
 struct Truth {
-  MapTruth map;
+  mapping::MapTruth map;
   std::vector<Pose> query;
 };
 
-std::optional<Truth> read_truth(const RelocalizeArguments& a, const DriveLog& log) {
+std::optional<Truth> read_truth(const RelocalizeArguments& a, const io::DriveLog& log) {
   if (a.map_truth.empty()) {
     return std::nullopt;
   }
-  std::vector<Pose> query = a.truth.empty() ? log.truth() : read_trajectory(a.truth).poses;
-  const std::vector<Pose> map = read_trajectory(a.run / "trajectory.tum").poses;
-  const std::vector<Pose> true_map = read_trajectory(a.map_truth).poses;
+  std::vector<Pose> query = a.truth.empty() ? log.truth() : io::read_trajectory(a.truth).poses;
+  const std::vector<Pose> map = io::read_trajectory(a.run / "trajectory.tum").poses;
+  const std::vector<Pose> true_map = io::read_trajectory(a.map_truth).poses;
   if (map.size() != true_map.size()) {
     throw InputError(
         a.map_truth.string(), "",
@@ -104,10 +107,10 @@ std::optional<Truth> read_truth(const RelocalizeArguments& a, const DriveLog& lo
                      std::to_string(query.size()) + " true poses for " + std::to_string(log.size()) + " scans",
                      "see --truth");
   }
-  return Truth{MapTruth(map, true_map), std::move(query)};
+  return Truth{mapping::MapTruth(map, true_map), std::move(query)};
 }
 
-void print(const RelocalizationSummary& s) {
+void print(const localization::RelocalizationSummary& s) {
   std::printf("scans %zu, placed %zu (%.1f %%), first answer ", s.scans, s.answered,
               s.scans > 0 ? 100.0 * static_cast<double>(s.answered) / static_cast<double>(s.scans) : 0.0);
   std::printf(s.first_answer_s < 0.0 ? "none" : "after %.1f s of driving", s.first_answer_s);
@@ -126,19 +129,19 @@ int relocalize(const RelocalizeArguments& a, const Globals& globals) {
       throw InputError(taken.string(), "", "is there already and is never overwritten", "choose another name for -o");
     }
   }
-  const AppOptions options = globals.options();
-  const std::unique_ptr<DriveLog> log = open_log(a.log, options.log);
-  RunFolder::open(a.run);
+  const workflows::ProgramOptions options = globals.options();
+  const std::unique_ptr<io::DriveLog> log = io::open_log(a.log, options.log);
+  map_store::RunFolder::open(a.run);
   const std::optional<Truth> truth = read_truth(a, *log);
   const Stopwatch watch;
-  const std::vector<RelocalizedScan> placed = place_scans(a, options, *log);
-  RelocalizationSummary summary = summarize(placed);
+  const std::vector<localization::RelocalizedScan> placed = place_scans(a, options, *log);
+  localization::RelocalizationSummary summary = summarize(placed);
   summary.seconds = watch.seconds();
   if (truth) {
-    judge(placed, truth->map, truth->query, summary);
+    localization::judge(placed, truth->map, truth->query, summary);
   }
   std::filesystem::create_directories(partial);
-  write_relocalization(partial, placed, summary);
+  localization::write_relocalization(partial, placed, summary);
   std::filesystem::rename(partial, a.output);
   print(summary);
   return 0;

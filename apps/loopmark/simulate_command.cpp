@@ -19,7 +19,7 @@ struct SimulateArguments {
   std::filesystem::path output;
   std::size_t towns = 1;
   bool only_pairs = false;
-  std::vector<std::function<void(SimulationOptions&)>> given;
+  std::vector<std::function<void(simulation::SimulationOptions&)>> given;
 };
 
 constexpr const char* kExamples = R"(Examples:
@@ -42,7 +42,7 @@ CLI::Option* add_value(CLI::App& command, SimulateArguments& a, const std::strin
   return command.add_option_function<Value>(
       name,
       [&a, member](const Value& value) {
-        a.given.push_back([member, value](SimulationOptions& o) { member(o) = value; });
+        a.given.push_back([member, value](simulation::SimulationOptions& o) { member(o) = value; });
       },
       help);
 }
@@ -61,7 +61,7 @@ void add_choice(CLI::App& command, SimulateArguments& a, const std::string& name
           [&a, choices, member](const std::string& given) {
             for (const auto& [word, meaning] : choices) {
               if (given == word) {
-                a.given.push_back([member, value = meaning](SimulationOptions& o) { member(o) = value; });
+                a.given.push_back([member, value = meaning](simulation::SimulationOptions& o) { member(o) = value; });
               }
             }
           },
@@ -71,7 +71,7 @@ void add_choice(CLI::App& command, SimulateArguments& a, const std::string& name
 }
 
 void declare_drive(CLI::App& command, SimulateArguments& a) {
-  using O = SimulationOptions;
+  using O = simulation::SimulationOptions;
   add_value<std::uint64_t>(
       command, a, "--town", "seed of the town (default 1)", [](O & o) -> auto& { return o.town.seed; });
   add_value<double>(
@@ -85,9 +85,9 @@ void declare_drive(CLI::App& command, SimulateArguments& a) {
       [](O & o) -> auto& { return o.drive.day; });
   add_value<std::string>(
       command, a, "--route", "tour (default), explore, twins, open", [](O & o) -> auto& { return o.drive.route; });
-  add_choice<Lane>(
+  add_choice<simulation::Lane>(
       command, a, "--lane", "lane driven on (default right)",
-      {{"right", Lane::kRight}, {"centre", Lane::kCentre}, {"left", Lane::kLeft}},
+      {{"right", simulation::Lane::kRight}, {"centre", simulation::Lane::kCentre}, {"left", simulation::Lane::kLeft}},
       [](O & o) -> auto& { return o.drive.lane; });
   add_choice<bool>(
       command, a, "--direction", "reverse: the route from its end", {{"forward", false}, {"reverse", true}},
@@ -99,9 +99,11 @@ void declare_drive(CLI::App& command, SimulateArguments& a) {
       command, a, "--seed", "seed of noise, speeds, halts, traffic, pairs (default 1)",
       [](O & o) -> auto& { return o.drive.seed; })
       ->each([&a](const std::string& seed) { a.given.push_back([seed](O& o) { o.pairs.seed = std::stoull(seed); }); });
-  add_choice<LogFormat>(
+  add_choice<simulation::LogFormat>(
       command, a, "--format", "kitti (default): .bin; pcd: with ring and time of each point; rawlog: MRPT's",
-      {{"kitti", LogFormat::kKitti}, {"pcd", LogFormat::kPcd}, {"rawlog", LogFormat::kRawlog}},
+      {{"kitti", simulation::LogFormat::kKitti},
+       {"pcd", simulation::LogFormat::kPcd},
+       {"rawlog", simulation::LogFormat::kRawlog}},
       [](O & o) -> auto& { return o.write.format; });
   command.add_flag_callback(
       "--compensated", [&a] { a.given.push_back([](O& o) { o.write.compensated = true; }); },
@@ -112,7 +114,7 @@ void declare_drive(CLI::App& command, SimulateArguments& a) {
 }
 
 void declare_pairs(CLI::App& command, SimulateArguments& a) {
-  using O = SimulationOptions;
+  using O = simulation::SimulationOptions;
   add_value<std::size_t>(
       command, a, "--pairs", "make so many pairs of scans instead of a drive",
       [](O & o) -> auto& { return o.pairs.pairs; })
@@ -129,13 +131,13 @@ void declare_pairs(CLI::App& command, SimulateArguments& a) {
       [](O & o) -> auto& { return o.pairs.days; });
 }
 
-int simulate_drive(const SimulationOptions& o, const std::filesystem::path& output) {
+int simulate_drive(const simulation::SimulationOptions& o, const std::filesystem::path& output) {
   check(o.drive);
-  const Town town = make_town(o.town);
-  const Drive drive(town, o.drive);
-  const World world(town, o.drive.day);
+  const simulation::Town town = simulation::make_town(o.town);
+  const simulation::Drive drive(town, o.drive);
+  const simulation::World world(town, o.drive.day);
   const Stopwatch watch;
-  const WrittenLog log = write_drive(world, town, drive, output, o.write);
+  const simulation::WrittenLog log = simulation::write_drive(world, town, drive, output, o.write);
   const double seconds = watch.seconds();
   const double rays = static_cast<double>(drive.sensor().rays_per_sweep() * log.scans);
   std::printf("%s: %zu scans (%s), %.0f m, %zu revisits, %.1f million points\n", output.c_str(), log.scans,
@@ -146,7 +148,7 @@ int simulate_drive(const SimulationOptions& o, const std::filesystem::path& outp
   return 0;
 }
 
-int simulate(const SimulateArguments& a, SimulationOptions options) {
+int simulate(const SimulateArguments& a, simulation::SimulationOptions options) {
   for (const auto& change : a.given) {
     change(options);
   }

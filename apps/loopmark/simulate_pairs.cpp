@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/progress.hpp"
-#include "loopmark/evaluation/pair_set.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
-#include "loopmark/simulation/output_folder.hpp"
+#include "loopmark/pair_sets/pair_set.hpp"
+#include "loopmark/storage/output_folder.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -40,29 +40,31 @@ std::size_t share(std::size_t count, std::size_t parts, std::size_t k) {
 }
 
 struct PairSet {
-  std::vector<RegistrationPair> pairs;
-  std::vector<PairKey> negatives;
+  std::vector<pair_sets::RegistrationPair> pairs;
+  std::vector<pair_sets::PairKey> negatives;
   std::string sessions = "index name\n";
 };
 
 void add_town(const SimulatePairsArguments& a, std::size_t k, const std::filesystem::path& folder, PairSet& set) {
-  TownOptions town_options = a.town;
+  simulation::TownOptions town_options = a.town;
   town_options.seed += k;
   const std::string name = "town_" + std::to_string(town_options.seed);
   const std::filesystem::path scans = folder / name / "velodyne";
   std::filesystem::create_directories(scans);
-  PairOptions options = a.pairs;
+  simulation::PairOptions options = a.pairs;
   options.pairs = share(a.pairs.pairs, a.towns, k);
   options.negatives = share(a.pairs.negatives, a.towns, k);
-  const Town town = make_town(town_options);
-  const PairSample sample = sample_pairs(
-      town, options, [&](std::size_t index, const PointCloud& cloud) { write_bin(scans / scan_name(index), cloud); });
-  write_kitti(folder / name / "poses.txt", sample.T_town_lidar);
+  const simulation::Town town = simulation::make_town(town_options);
+  const simulation::PairSample sample = simulation::sample_pairs(
+      town, options,
+      [&](std::size_t index, const PointCloud& cloud) { io::write_bin(scans / scan_name(index), cloud); });
+  io::write_kitti(folder / name / "poses.txt", sample.T_town_lidar);
   const int session = static_cast<int>(k);
   set.sessions += std::to_string(k) + " " + name + "\n";
-  for (const SampledPair& pair : sample.pairs) {
-    set.pairs.push_back(make_pair({session, static_cast<int>(pair.source), static_cast<int>(pair.target), session},
-                                  pair.T_target_source, pair.overlap, pair.overlap_symmetric));
+  for (const simulation::SampledPair& pair : sample.pairs) {
+    set.pairs.push_back(
+        pair_sets::make_pair({session, static_cast<int>(pair.source), static_cast<int>(pair.target), session},
+                             pair.T_target_source, pair.overlap, pair.overlap_symmetric));
   }
   for (const auto& [first, second] : sample.negatives) {
     set.negatives.push_back({session, static_cast<int>(first), static_cast<int>(second), session});
@@ -72,7 +74,7 @@ void add_town(const SimulatePairsArguments& a, std::size_t k, const std::filesys
 void print_summary(const SimulatePairsArguments& a, const PairSet& set, double seconds) {
   std::array<std::size_t, 7> bins{};
   double farthest = 0.0;
-  for (const RegistrationPair& pair : set.pairs) {
+  for (const pair_sets::RegistrationPair& pair : set.pairs) {
     const double at = (pair.overlap_symmetric - a.pairs.min_overlap) / (a.pairs.max_overlap - a.pairs.min_overlap);
     ++bins[std::min<std::size_t>(6, static_cast<std::size_t>(7.0 * at))];
     farthest = std::max(farthest, pair.T_target_source.translation().norm());
@@ -96,15 +98,15 @@ int simulate_pairs(const SimulatePairsArguments& a) {
   check(a.pairs);
   require_option(a.towns >= 1 && a.towns <= a.pairs.pairs, "--towns", "must lie between 1 and the number of pairs");
   const Stopwatch watch;
-  OutputFolder output(a.output);
+  storage::OutputFolder output(a.output);
   PairSet set;
   for (std::size_t k = 0; k < a.towns; ++k) {
     add_town(a, k, output.partial(), set);
   }
-  write_pair_set(output.partial() / "pairs.txt", set.pairs);
-  write_negatives(output.partial() / "negatives.txt", set.negatives);
-  write_file_atomically(output.partial() / "sessions.txt", set.sessions);
-  write_file_atomically(output.partial() / "README.txt", kReadme);
+  pair_sets::write_pair_set(output.partial() / "pairs.txt", set.pairs);
+  pair_sets::write_negatives(output.partial() / "negatives.txt", set.negatives);
+  storage::write_file_atomically(output.partial() / "sessions.txt", set.sessions);
+  storage::write_file_atomically(output.partial() / "README.txt", kReadme);
   output.finish();
   print_summary(a, set, watch.seconds());
   return 0;

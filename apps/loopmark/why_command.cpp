@@ -6,7 +6,7 @@
 
 #include "commands.hpp"
 #include "loopmark/core/error.hpp"
-#include "why_run.hpp"
+#include "loopmark/workflows/why_run.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -28,18 +28,18 @@ int why(const WhyArguments& a, const Globals& globals) {
   if (!globals.config_file.empty() || !globals.settings.empty()) {
     throw InputError("loopmark why shows a run with its own options: leave --config and --set out");
   }
-  const OpenedRun run = open_run(a.run);
-  const SolvedMap map = run.solve();
-  const std::size_t i = keyframe_named(a.first, run, map.keyframes, true);
-  const std::size_t j = keyframe_named(a.second, run, map.keyframes, true);
+  const workflows::OpenedRun run = workflows::open_run(a.run);
+  const mapping::SolvedMap map = run.solve();
+  const std::size_t i = workflows::keyframe_named(a.first, run, map.keyframes, true);
+  const std::size_t j = workflows::keyframe_named(a.second, run, map.keyframes, true);
   if (i == j) {
     throw InputError(a.run.string(), a.first + " and " + a.second, "stand for the same keyframe, k" + std::to_string(i),
                      "name scans further apart");
   }
-  const Inquiry inquiry = inquire(run, map, {std::max(i, j), std::min(i, j)});
-  std::fputs(inquiry_text(run, map, inquiry).c_str(), stdout);
+  const workflows::Verifier inquiry = workflows::inquire(run, map, {std::max(i, j), std::min(i, j)});
+  std::fputs(workflows::inquiry_text(run, map, inquiry).c_str(), stdout);
   if (!a.picture.empty()) {
-    write_inquiry_picture(run, inquiry, a.picture);
+    workflows::write_inquiry_picture(run, inquiry, a.picture);
     std::printf("picture       %s\n", a.picture.c_str());
   }
   return 0;

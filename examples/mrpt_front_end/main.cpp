@@ -8,26 +8,27 @@
 #include <cstdio>
 #include <exception>
 
+#include "loopmark/map_export/products.hpp"
+#include "loopmark/mapping/engine_registrar.hpp"
 #include "loopmark/mrpt_bridge/conversions.hpp"
-#include "loopmark/slam/engine_registrar.hpp"
-#include "loopmark/slam/products.hpp"
 
 namespace {
 
 mrpt::maps::CSimpleMap map_of(const mrpt::obs::CRawlog& frames, const char* run) {
-  const loopmark::RunFolder folder = loopmark::RunFolder::create(run);
-  loopmark::Mapper mapper(folder, {}, loopmark::engine_registrar({}), loopmark::Compensation::kCompensated, {});
+  const loopmark::map_store::RunFolder folder = loopmark::map_store::RunFolder::create(run);
+  loopmark::mapping::Mapper mapper(folder, {}, loopmark::mapping::engine_registrar({}),
+                                   loopmark::odometry::Compensation::kCompensated, {});
   for (const auto& object : frames) {
     mrpt::obs::CSensoryFrame frame;
     if (const auto one = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) frame.insert(one);
     if (const auto many = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) frame = *many;
-    if (auto scan = loopmark::scan_from_sensory_frame(frame)) {
+    if (auto scan = loopmark::mrpt_bridge::scan_from_sensory_frame(frame)) {
       scan->index = mapper.scans().size();
       mapper.add(*scan);
     }
   }
   mapper.close_loops();
-  loopmark::write_mrpt_products(folder, mapper.scans(), mapper.loops(), mapper.solve());
+  loopmark::map_export::write_mrpt_products(folder, mapper.scans(), mapper.loops(), mapper.solve());
   mrpt::maps::CSimpleMap map;
   map.loadFromFile((folder / "map.simplemap").string());
   return map;

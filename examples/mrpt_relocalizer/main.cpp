@@ -7,10 +7,10 @@
 
 #include <cstdio>
 
+#include "loopmark/localization/relocalizer.hpp"
+#include "loopmark/localization/run_place_map.hpp"
+#include "loopmark/map_store/run_records.hpp"
 #include "loopmark/mrpt_bridge/conversions.hpp"
-#include "loopmark/slam/relocalizer.hpp"
-#include "loopmark/slam/run_place_map.hpp"
-#include "loopmark/slam/run_records.hpp"
 
 int main(int argc, char** argv) try {
   mrpt::obs::CRawlog frames;
@@ -18,16 +18,17 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "usage: mrpt_relocalizer RUN LOG.rawlog\n");
     return 2;
   }
-  const auto run = loopmark::RunFolder::open(argv[1]);
-  const auto solved = loopmark::solve_map(read_scan_records(run), read_loop_records(run), {}, {});
-  loopmark::Relocalizer relocalizer(loopmark::open_place_map(run, solved, {}), {});
+  const auto run = loopmark::map_store::RunFolder::open(argv[1]);
+  const auto solved =
+      loopmark::mapping::solve_map(loopmark::map_store::read_scan_records(run), loopmark::map_store::read_loop_records(run), {}, {});
+  loopmark::localization::Relocalizer relocalizer(loopmark::localization::open_place_map(run, solved, {}), {});
   for (const auto& object : frames) {
     mrpt::obs::CSensoryFrame frame;
     if (const auto one = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) frame.insert(one);
     if (const auto many = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) frame = *many;
-    if (const auto scan = loopmark::scan_from_sensory_frame(frame)) {
-      const loopmark::RelocalizedScan where = relocalizer.add(*scan);
-      const auto pose = loopmark::to_mrpt(where.T_map_lidar, where.covariance);
+    if (const auto scan = loopmark::mrpt_bridge::scan_from_sensory_frame(frame)) {
+      const loopmark::localization::RelocalizedScan where = relocalizer.add(*scan);
+      const auto pose = loopmark::mrpt_bridge::to_mrpt(where.T_map_lidar, where.covariance);
       std::printf("%.2f s  %s  P(correct) %.3f  %s\n", where.stamp_s, name(where.state), where.p_correct,
                   where.answered ? pose.mean.asString().c_str() : where.reason.c_str());
     }

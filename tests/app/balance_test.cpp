@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 
 #include "app/layout_writers.hpp"
-#include "evaluation/pair_files.hpp"
 #include "loopmark/cloud/overlap.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/io/dataset.hpp"
+#include "loopmark/storage/files.hpp"
+#include "pair_sets/pair_files.hpp"
 #include "support/run_program.hpp"
 
 namespace loopmark {
@@ -29,17 +29,17 @@ class BalanceProgram : public testing::Test {
       const auto result = run_program(words);
       ASSERT_EQ(result.exit_code, 0) << result.output;
     }
-    EXPECT_EQ(read_file(folder_ / "set/pairs.txt"), read_file(folder_ / "again/pairs.txt"));
-    const auto set = read_pair_set(folder_ / "set/pairs.txt");
+    EXPECT_EQ(storage::read_file(folder_ / "set/pairs.txt"), storage::read_file(folder_ / "again/pairs.txt"));
+    const auto set = pair_sets::read_pair_set(folder_ / "set/pairs.txt");
     EXPECT_EQ(set.size(), pairs);
-    const auto data = open_dataset(root);
-    for (const RegistrationPair& pair : set) {
+    const auto data = io::open_dataset(root);
+    for (const pair_sets::RegistrationPair& pair : set) {
       const auto poses = data->poses(pair.key.session);
       const Pose T = poses[data->frame_index(pair.key.session, pair.key.target)].inverse() *
                      poses[data->frame_index(pair.key.session, pair.key.source)];
       EXPECT_LT(pose_error(T, pair.T_target_source).translation_m, 1e-9);
-      const Overlap again =
-          overlap(data->load(pair.key.session, pair.key.source), data->load(pair.key.session, pair.key.target), T);
+      const cloud::Overlap again = cloud::overlap(data->load(pair.key.session, pair.key.source),
+                                                  data->load(pair.key.session, pair.key.target), T);
       EXPECT_NEAR(again.symmetric, pair.overlap_symmetric, 1e-12);
       EXPECT_GE(again.symmetric, 0.2);
     }
@@ -57,7 +57,7 @@ TEST_F(BalanceProgram, ChoosesFromKittiDrives) {
 TEST_F(BalanceProgram, ChoosesFromApolloFramesThatCountFromOne) {
   test::write_apollo_layout(folder_ / "apollo", test::circle_drive(20, 50, 1, 0.5));
   balance_and_check(folder_ / "apollo", 12);
-  for (const RegistrationPair& pair : read_pair_set(folder_ / "set/pairs.txt")) {
+  for (const pair_sets::RegistrationPair& pair : pair_sets::read_pair_set(folder_ / "set/pairs.txt")) {
     EXPECT_GE(pair.key.source, 1);
     EXPECT_EQ(pair.key.session, 20);
   }
@@ -74,15 +74,15 @@ TEST_F(BalanceProgram, SubsetsKeepToTheirDrives) {
   const auto result = run_program({"balance", folder_ / "kitti", "--subset", "train:10:2", "--subset", "test:8:5",
                                    "--quiet", "-o", folder_ / "set"});
   ASSERT_EQ(result.exit_code, 0) << result.output;
-  EXPECT_EQ(read_pair_set(folder_ / "set/train.txt").size(), 10U);
-  for (const RegistrationPair& pair : read_pair_set(folder_ / "set/test.txt")) {
+  EXPECT_EQ(pair_sets::read_pair_set(folder_ / "set/train.txt").size(), 10U);
+  for (const pair_sets::RegistrationPair& pair : pair_sets::read_pair_set(folder_ / "set/test.txt")) {
     EXPECT_EQ(pair.key.session, 5);
   }
 }
 
 TEST_F(BalanceProgram, DrivesWithoutPosesAreTold) {
-  write_bin((fs::create_directories(folder_ / "log/velodyne"), folder_ / "log/velodyne/000000.bin"),
-            test::circle_drive(0, 1, 0, 0.0).load(0));
+  io::write_bin((fs::create_directories(folder_ / "log/velodyne"), folder_ / "log/velodyne/000000.bin"),
+                test::circle_drive(0, 1, 0, 0.0).load(0));
   const auto result = run_program({"balance", folder_ / "log", "-o", folder_ / "set"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.output, HasSubstr("pose"));
@@ -95,11 +95,11 @@ class EvaluateBadData : public BalanceProgram {
     test::write_apollo_layout(folder_ / "apollo", test::circle_drive(20, 30, 1, 0.5));
     write_text_set({20, 1, 5, 20}, 0.5);
   }
-  void write_text_set(const PairKey& key, double overlap, double extra_m = 0.0) {
-    const Drive drive = test::circle_drive(20, 30, 1, 0.5);
+  void write_text_set(const pair_sets::PairKey& key, double overlap, double extra_m = 0.0) {
+    const pair_sets::Drive drive = test::circle_drive(20, 30, 1, 0.5);
     Pose T = drive.T_world_cloud[4].inverse() * drive.T_world_cloud[0];
     T.translation().x() += extra_m;
-    write_pair_set(folder_ / "set.txt", {make_pair(key, T, overlap, overlap)});
+    pair_sets::write_pair_set(folder_ / "set.txt", {pair_sets::make_pair(key, T, overlap, overlap)});
   }
   testing_support::ProgramResult evaluate() const {
     return run_program({"evaluate", folder_ / "set.txt", "--data", folder_ / "apollo", "--command",
@@ -135,9 +135,9 @@ TEST_F(EvaluateBadData, ScansOfAnotherDataSet) {
 }
 
 TEST_F(EvaluateBadData, FittingDataIsTaken) {
-  const Drive drive = test::circle_drive(20, 30, 1, 0.5);
+  const pair_sets::Drive drive = test::circle_drive(20, 30, 1, 0.5);
   const Pose T = drive.T_world_cloud[4].inverse() * drive.T_world_cloud[0];
-  const Overlap truth = overlap(drive.load(0), drive.load(4), T);
+  const cloud::Overlap truth = cloud::overlap(drive.load(0), drive.load(4), T);
   write_text_set({20, 1, 5, 20}, truth.symmetric);
   const auto result = evaluate();
   EXPECT_EQ(result.exit_code, 0) << result.output;
@@ -156,14 +156,14 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 }
 
 TEST_F(EvaluateBadData, EveryFailedPairHasOnePictureHoweverManyFailedOnIt) {
-  const Drive drive = test::circle_drive(20, 30, 1, 0.5);
-  std::vector<RegistrationPair> pairs;
+  const pair_sets::Drive drive = test::circle_drive(20, 30, 1, 0.5);
+  std::vector<pair_sets::RegistrationPair> pairs;
   for (int i = 1; i <= 5; ++i) {
     const auto at = static_cast<std::size_t>(i - 1);
-    pairs.push_back(
-        make_pair({20, i, i + 4, 20}, drive.T_world_cloud[at + 4].inverse() * drive.T_world_cloud[at], 0.5, 0.5));
+    pairs.push_back(pair_sets::make_pair({20, i, i + 4, 20},
+                                         drive.T_world_cloud[at + 4].inverse() * drive.T_world_cloud[at], 0.5, 0.5));
   }
-  write_pair_set(folder_ / "set.txt", pairs);
+  pair_sets::write_pair_set(folder_ / "set.txt", pairs);
   const auto competitor = [](const std::string& name, const std::string& x) {
     return name + "=sh -c 'echo ready; while read w s t; do echo motion 1 0 0 " + x +
            " 0 1 0 0 0 0 1 0 0 0 0 1 0.5 0.1; done'";
@@ -174,7 +174,7 @@ TEST_F(EvaluateBadData, EveryFailedPairHasOnePictureHoweverManyFailedOnIt) {
                                      "--command", "none=sh -c 'echo ready; while read w s t; do echo failed so; done'",
                                      "--pictures", most, "--quiet", "-o", folder_ / folder});
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    return read_file(folder_ / folder / "report.html");
+    return storage::read_file(folder_ / folder / "report.html");
   };
   const std::string all = report("all", "500");
   EXPECT_EQ(count_of(all, "<img "), 5U);

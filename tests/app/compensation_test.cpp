@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "compensation_of_log.hpp"
+#include "loopmark/workflows/compensation_of_log.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ TEST(CompensationOfLog, RawSweepsOfARealDriveAreFoundWithTheirDirection) {
   if (!folder) {
     GTEST_SKIP() << "no shared logs";
   }
-  const CompensationMeasurement measurement = compensation_of_log(*open_log(*folder));
-  EXPECT_EQ(measurement.verdict, Compensation::kRawClockwise) << describe_measurement(measurement);
+  const odometry::CompensationMeasurement measurement = workflows::compensation_of_log(*io::open_log(*folder));
+  EXPECT_EQ(measurement.verdict, odometry::Compensation::kRawClockwise) << workflows::describe_measurement(measurement);
 }
 
 TEST(CompensationOfLog, KeyframesTellNothing) {
@@ -23,7 +23,7 @@ TEST(CompensationOfLog, KeyframesTellNothing) {
   if (!folder) {
     GTEST_SKIP() << "no shared logs";
   }
-  EXPECT_EQ(compensation_of_log(*open_log(*folder)).verdict, Compensation::kUnknown);
+  EXPECT_EQ(workflows::compensation_of_log(*io::open_log(*folder)).verdict, odometry::Compensation::kUnknown);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using testing_support::run_program;
 TEST(Doctor, ReportsALogInWordsAndAsJson) {
   const TemporaryFolder folder;
   for (int i = 0; i < 3; ++i) {
-    write_pcd(folder / (std::to_string(i) + ".pcd"), random_cloud(100, static_cast<std::uint64_t>(i)));
+    io::write_pcd(folder / (std::to_string(i) + ".pcd"), random_cloud(100, static_cast<std::uint64_t>(i)));
   }
   const ProgramResult text = run_program({"doctor", folder.path().string(), "--set", "log.rate_hz=5"});
   EXPECT_EQ(text.exit_code, 0);
@@ -36,7 +36,7 @@ TEST(Doctor, ReportsADataSet) {
   const TemporaryFolder folder;
   for (const char* name : {"one", "two"}) {
     std::filesystem::create_directories(folder.path() / name / "velodyne");
-    write_bin(folder.path() / name / "velodyne" / "000000.bin", random_cloud(100));
+    io::write_bin(folder.path() / name / "velodyne" / "000000.bin", random_cloud(100));
   }
   const ProgramResult result = run_program({"doctor", folder.path().string()});
   EXPECT_EQ(result.exit_code, 0);

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 #include "passing_log.hpp"
 #include "support/run_program.hpp"
 
@@ -41,7 +41,7 @@ class Drill : public ::testing::Test {
     const ProgramResult mapped =
         run_program({"map", log_of_day, "-o", run_of_day, "-q", "--set", testing_support::kPassingLogSetting});
     ASSERT_EQ(mapped.exit_code, 0) << mapped.output;
-    const auto summary = nlohmann::json::parse(read_file(run_of_day / "summary.json"));
+    const auto summary = nlohmann::json::parse(storage::read_file(run_of_day / "summary.json"));
     ASSERT_LT(summary["ate_rmse_m"], 0.1) << "the map itself";
   }
 
@@ -72,13 +72,13 @@ TEST_F(Drill, ReportsEveryEventAndNoneIsWrong) {
   const ProgramResult result = drill(run_of_day, out);
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, testing::HasSubstr("teleport"));
-  const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+  const auto summary = nlohmann::json::parse(storage::read_file(out / "summary.json"));
   EXPECT_EQ(summary["events"], 6);
-  EXPECT_EQ(summary["by"]["all"]["wrong"], 0) << read_file(out / "drill.csv");
-  EXPECT_GE(summary["by"]["all"]["in_time"], 5) << read_file(out / "drill.csv");
-  const std::string csv = read_file(out / "drill.csv");
+  EXPECT_EQ(summary["by"]["all"]["wrong"], 0) << storage::read_file(out / "drill.csv");
+  EXPECT_GE(summary["by"]["all"]["in_time"], 5) << storage::read_file(out / "drill.csv");
+  const std::string csv = storage::read_file(out / "drill.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
-  EXPECT_THAT(read_file(out / "report.html"), testing::HasSubstr("Where tracking was cut"));
+  EXPECT_THAT(storage::read_file(out / "report.html"), testing::HasSubstr("Where tracking was cut"));
   EXPECT_FALSE(fs::exists(out.string() + ".partial"));
 }
 
@@ -89,10 +89,10 @@ TEST_F(Drill, ASeedRepeatsItByteForByteAtAnyNumberOfThreads) {
   ASSERT_EQ(drill(run_of_day, one, {"--seed", "3", "--threads", "1"}).exit_code, 0);
   ASSERT_EQ(drill(run_of_day, two, {"--seed", "3", "--threads", "2"}).exit_code, 0);
   for (const char* const file : {"drill.csv", "summary.json", "report.html", "config.yaml"}) {
-    EXPECT_EQ(sha256_of_file(one / file), sha256_of_file(two / file)) << file;
+    EXPECT_EQ(storage::sha256_of_file(one / file), storage::sha256_of_file(two / file)) << file;
   }
   ASSERT_EQ(drill(run_of_day, other, {"--seed", "4"}).exit_code, 0);
-  EXPECT_NE(sha256_of_file(one / "drill.csv"), sha256_of_file(other / "drill.csv"));
+  EXPECT_NE(storage::sha256_of_file(one / "drill.csv"), storage::sha256_of_file(other / "drill.csv"));
 }
 
 TEST_F(Drill, EventsThatAreChosenAreTheSameAlone) {
@@ -101,7 +101,7 @@ TEST_F(Drill, EventsThatAreChosenAreTheSameAlone) {
   ASSERT_EQ(drill(run_of_day, all).exit_code, 0);
   ASSERT_EQ(drill(run_of_day, some, {"--only", "4,1"}).exit_code, 0);
   const auto rows = [](const fs::path& folder) {
-    std::istringstream lines(read_file(folder / "drill.csv"));
+    std::istringstream lines(storage::read_file(folder / "drill.csv"));
     std::vector<std::string> found;
     for (std::string line; std::getline(lines, line);) {
       found.push_back(line);
@@ -119,9 +119,9 @@ TEST_F(Drill, GoesOnInAnotherDriveWhoseTruthIsKnown) {
   const ProgramResult result =
       drill(run_of_day, out, {"--drive", drive, "--events", "2", "--set", "drill.disturbances=[other-drive]"});
   ASSERT_EQ(result.exit_code, 0) << result.output;
-  const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+  const auto summary = nlohmann::json::parse(storage::read_file(out / "summary.json"));
   EXPECT_EQ(summary["by"]["other-drive"]["events"], 2);
-  EXPECT_EQ(summary["by"]["other-drive"]["wrong"], 0) << read_file(out / "drill.csv");
+  EXPECT_EQ(summary["by"]["other-drive"]["wrong"], 0) << storage::read_file(out / "drill.csv");
 
   fs::remove(drive / "poses.txt");
   const ProgramResult refused = drill(run_of_day, fresh("refused"), {"--drive", drive});

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/pair_files.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
+#include "pair_sets/pair_files.hpp"
 #include "support/run_program.hpp"
 #include "support/shared_data.hpp"
 
@@ -36,7 +36,7 @@ TEST_P(PublishedCoarseMotions, HaveTheirRecall) {
   const auto result = run_program({"evaluate", *folder / "test.txt", "--motions", *folder / "test.coarse_motions.txt",
                                    "--quiet", "-o", out / "result"});
   ASSERT_EQ(result.exit_code, 0) << result.output;
-  const auto json = nlohmann::json::parse(read_file(out / "result/summary.json"));
+  const auto json = nlohmann::json::parse(storage::read_file(out / "result/summary.json"));
   EXPECT_NEAR(100.0 * json["algorithms"][0]["recall"].get<double>(), GetParam().recall, 0.005);
 }
 
@@ -50,13 +50,13 @@ class EvaluateProgram : public testing::Test {
  protected:
   EvaluateProgram() {
     const auto pairs = test::random_pairs(1200, 6);
-    write_pair_set(folder_ / "set.txt", pairs);
-    std::vector<PairMotion> motions;
-    for (const RegistrationPair& pair : pairs) {
+    pair_sets::write_pair_set(folder_ / "set.txt", pairs);
+    std::vector<pair_sets::PairMotion> motions;
+    for (const pair_sets::RegistrationPair& pair : pairs) {
       motions.push_back({pair.key, pair.T_target_source});
       motions.back().T_target_source.translation().x() += pair.key.source % 4 == 0 ? 1.0 : 0.1;
     }
-    write_motions(folder_ / "motions.txt", motions);
+    pair_sets::write_motions(folder_ / "motions.txt", motions);
   }
   std::vector<std::string> command(const std::string& result, const std::string& shard = "1/1") const {
     return {"evaluate",      folder_ / "set.txt", "--motions", "m=" + (folder_ / "motions.txt").string(),
@@ -66,7 +66,7 @@ class EvaluateProgram : public testing::Test {
   std::string bytes(const std::string& result) const {
     std::string all;
     for (const char* file : {"results.csv", "motions/m.txt", "tables/overview.md", "tables/errors.tex"}) {
-      all += read_file(folder_ / result / file);
+      all += storage::read_file(folder_ / result / file);
     }
     return all;
   }

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 #include "street_log.hpp"
 #include "support/run_program.hpp"
 
@@ -33,7 +33,7 @@ class Heal : public ::testing::Test {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.exit_code, 0) << result.output;
     output_ = result.output;
-    return nlohmann::json::parse(read_file(folder_ / name / "summary.json"));
+    return nlohmann::json::parse(storage::read_file(folder_ / name / "summary.json"));
   }
 
   fs::path folder_;
@@ -53,7 +53,7 @@ TEST_F(Heal, ADriveWithGapsAndAJumpBecomesOneMapAgain) {
   append(cut, driven(street_a, 60, 90, 80.0));  // a minute later
   const nlohmann::json healed = mapped("healed", cut);
   EXPECT_EQ(healed["components"], 1) << output_;
-  EXPECT_GE(healed["parts"][0]["pieces"], 4) << "each gap and the jump start a new one";
+  EXPECT_GE(healed["parts"][0]["segments"], 4) << "each gap and the jump start a new one";
   EXPECT_LT(healed["ate_rmse_m"].get<double>(), 0.1) << output_;
 }
 
@@ -72,12 +72,12 @@ TEST_F(Heal, APartFromElsewhereStaysApartByName) {
   EXPECT_GT(summary["parts"][1]["candidates_to_others"], 0) << "it must have been tried";
   EXPECT_LT(summary["ate_rmse_m"].get<double>(), 0.2) << "of the scans that have a place in the map";
   const fs::path run = folder_ / "apart";
-  EXPECT_EQ(read_trajectory(run / "trajectory.tum").poses.size(), 90U) << "nothing is thrown away";
-  EXPECT_THAT(read_file(run / "trajectory.tum"), HasSubstr("# component_1: 30 scans"));
-  EXPECT_EQ(read_trajectory(run / "component_1.tum").poses.size(), 30U);
+  EXPECT_EQ(io::read_trajectory(run / "trajectory.tum").poses.size(), 90U) << "nothing is thrown away";
+  EXPECT_THAT(storage::read_file(run / "trajectory.tum"), HasSubstr("# component_1: 30 scans"));
+  EXPECT_EQ(io::read_trajectory(run / "component_1.tum").poses.size(), 30U);
   EXPECT_TRUE(fs::exists(run / "component_1.ply"));
-  EXPECT_THAT(read_file(run / "components.csv"), HasSubstr("component_1,0,30,60,89"));
-  EXPECT_THAT(read_file(run / "report.html"), HasSubstr("component_1"));
+  EXPECT_THAT(storage::read_file(run / "components.csv"), HasSubstr("component_1,0,30,60,89"));
+  EXPECT_THAT(storage::read_file(run / "report.html"), HasSubstr("component_1"));
   EXPECT_THAT(output_, HasSubstr("component_1 (30 scans"));
 }
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/small_drives.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
+#include "pair_sets/small_drives.hpp"
 
 namespace loopmark::test {
 
@@ -36,8 +36,8 @@ inline std::string quaternion_text(const Pose& pose, bool scalar_first, const ch
 }
 
 /// KITTI odometry: sequences/NN/velodyne and times, poses/NN.txt in the frame of a camera that is the sensor's.
-inline void write_kitti_layout(const fs::path& root, const std::vector<Drive>& drives) {
-  for (const Drive& drive : drives) {
+inline void write_kitti_layout(const fs::path& root, const std::vector<pair_sets::Drive>& drives) {
+  for (const pair_sets::Drive& drive : drives) {
     char sequence[8];
     std::snprintf(sequence, sizeof sequence, "%02d", drive.session);
     const fs::path folder = root / "sequences" / sequence;
@@ -46,22 +46,22 @@ inline void write_kitti_layout(const fs::path& root, const std::vector<Drive>& d
     for (std::size_t i = 0; i < drive.size(); ++i) {
       char name[32];
       std::snprintf(name, sizeof name, "%06zu.bin", i);
-      write_bin(folder / "velodyne" / name, drive.load(i));
+      io::write_bin(folder / "velodyne" / name, drive.load(i));
       times += std::to_string(drive.stamps_s[i]) + "\n";
     }
     write_text(folder / "times.txt", times);
     write_text(folder / "calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
-    write_text(root / "poses" / (std::string(sequence) + ".txt"), kitti_text(drive.T_world_cloud));
+    write_text(root / "poses" / (std::string(sequence) + ".txt"), io::kitti_text(drive.T_world_cloud));
   }
 }
 
 /// Apollo-SouthBay: pcds and poses of one drive of the test set, frames from 1.
-inline void write_apollo_layout(const fs::path& root, const Drive& drive) {
+inline void write_apollo_layout(const fs::path& root, const pair_sets::Drive& drive) {
   const fs::path folder = root / "TestData/HighWay237/2018-10-12";
   fs::create_directories(folder / "pcds");
   std::string poses;
   for (std::size_t i = 0; i < drive.size(); ++i) {
-    write_pcd(folder / "pcds" / (std::to_string(i + 1) + ".pcd"), drive.load(i));
+    io::write_pcd(folder / "pcds" / (std::to_string(i + 1) + ".pcd"), drive.load(i));
     const Eigen::Vector3d t = drive.T_world_cloud[i].translation();
     char text[160];
     std::snprintf(text, sizeof text, "%zu %.6f %.17g %.17g %.17g ", i + 1, drive.stamps_s[i], t.x(), t.y(), t.z());
@@ -71,7 +71,7 @@ inline void write_apollo_layout(const fs::path& root, const Drive& drive) {
 }
 
 /// nuScenes: one scene, every sweep a LIDAR_TOP record, the sensor's frame that of the car.
-inline void write_nuscenes_layout(const fs::path& root, const Drive& drive) {
+inline void write_nuscenes_layout(const fs::path& root, const pair_sets::Drive& drive) {
   const fs::path tables = root / "v1.0-mini";
   write_text(tables / "scene.json", R"([{"token":"s","name":"scene-0001","first_sample_token":"a0"}])");
   write_text(tables / "calibrated_sensor.json", R"([{"token":"c","translation":[0,0,0],"rotation":[1,0,0,0]}])");

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "loopmark/slam/loop_decisions.hpp"
+#include "loopmark/map_store/loop_decisions.hpp"
 #include "support/run_program.hpp"
 #include "synthetic_run.hpp"
 
@@ -40,7 +40,7 @@ class LoopsCommand : public ::testing::Test {
     return std::to_string(made_->scan_of_keyframe[i]) + "-" + std::to_string(made_->scan_of_keyframe[j]);
   }
   static double ate_m(const fs::path& run) {
-    return nlohmann::json::parse(read_file(run / "summary.json")).at("ate_rmse_m").get<double>();
+    return nlohmann::json::parse(storage::read_file(run / "summary.json")).at("ate_rmse_m").get<double>();
   }
 
   static inline fs::path original_;
@@ -58,16 +58,16 @@ TEST_F(LoopsCommand, ListsEveryCandidateWithItsVerdict) {
 }
 
 TEST_F(LoopsCommand, AVetoSolvesAgainAndKeepsTheOldRun) {
-  const std::string before = read_file(run_ / "manifest.json");
+  const std::string before = storage::read_file(run_ / "manifest.json");
   const ProgramResult result = run_program({"loops", run_.string(), "--veto", pair(39, 0), "--veto", "k3-k36"});
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("rejected: vetoed by a person"));
   EXPECT_THAT(result.output, HasSubstr("2 decided by a person"));
-  EXPECT_EQ(read_file(fs::path(run_.string() + ".before-1") / "manifest.json"), before);
+  EXPECT_EQ(storage::read_file(fs::path(run_.string() + ".before-1") / "manifest.json"), before);
   EXPECT_TRUE(fs::exists(fs::path(run_.string() + ".before-1") / "cloud.ply"));
   EXPECT_FALSE(fs::exists(run_ / "cloud.ply")) << "shows the old poses";
   EXPECT_FALSE(fs::exists(run_.string() + ".partial"));
-  EXPECT_THAT(read_file(run_ / "loops.csv"), HasSubstr("vetoed by a person"));
+  EXPECT_THAT(storage::read_file(run_ / "loops.csv"), HasSubstr("vetoed by a person"));
   for (const char* file : {"trajectory.tum", "pose_graph.g2o", "covariances.csv", "report.html"}) {
     EXPECT_TRUE(fs::exists(run_ / file)) << file;
   }
@@ -79,11 +79,12 @@ TEST_F(LoopsCommand, ForcingAWrongLoopBendsTheMapAndForgettingMendsIt) {
   ASSERT_EQ(
       run_program({"loops", run_.string(), "--force", pair(30, 8), "-o", (folder_ / "forced").string()}).exit_code, 0);
   EXPECT_GT(ate_m(folder_ / "forced"), 3.0 * ate_m(folder_ / "plain"));
-  EXPECT_THAT(read_file(folder_ / "forced/loops.csv"), HasSubstr("forced by a person"));
+  EXPECT_THAT(storage::read_file(folder_ / "forced/loops.csv"), HasSubstr("forced by a person"));
   const ProgramResult back = run_program({"loops", (folder_ / "forced").string(), "--forget", pair(8, 30)});
   EXPECT_EQ(back.exit_code, 0) << back.output;
-  EXPECT_EQ(read_file(folder_ / "forced/trajectory.tum"), read_file(folder_ / "plain/trajectory.tum"));
-  EXPECT_EQ(read_file(folder_ / "forced/loops.csv"), read_file(folder_ / "plain/loops.csv"));
+  EXPECT_EQ(storage::read_file(folder_ / "forced/trajectory.tum"),
+            storage::read_file(folder_ / "plain/trajectory.tum"));
+  EXPECT_EQ(storage::read_file(folder_ / "forced/loops.csv"), storage::read_file(folder_ / "plain/loops.csv"));
 }
 
 TEST_F(LoopsCommand, AForcedPairThatWasNoCandidateIsRegisteredNow) {
@@ -103,7 +104,7 @@ TEST_F(LoopsCommand, MapsAreMadeAnewWhenAskedFor) {
 }
 
 TEST_F(LoopsCommand, WrongInputIsToldAndChangesNothing) {
-  const std::string before = read_file(run_ / "manifest.json");
+  const std::string before = storage::read_file(run_ / "manifest.json");
   const auto told = [&](std::vector<std::string> words, const std::string& problem) {
     words.insert(words.begin(), "loops");
     const ProgramResult result = run_program(words);
@@ -122,7 +123,7 @@ TEST_F(LoopsCommand, WrongInputIsToldAndChangesNothing) {
   told({run_.string(), "--forget", "k30-k8"}, "nobody has decided");
   told({run_.string(), "--set", "odometry.max_range_m=3"}, "needs loopmark map again");
   told({run_.string(), "--veto", "k30-k8", "-o", run_.string()}, "never overwritten");
-  EXPECT_EQ(read_file(run_ / "manifest.json"), before);
+  EXPECT_EQ(storage::read_file(run_ / "manifest.json"), before);
   EXPECT_FALSE(fs::exists(run_.string() + ".partial"));
 }
 

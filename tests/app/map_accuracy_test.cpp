@@ -51,7 +51,7 @@ TEST(MapAccuracy, OfARealCityDriveWithRawSweeps) {
   const std::filesystem::path run = places.new_run("run");
   const auto result = testing_support::run_program({"map", *log, "-o", run, "-q"});
   ASSERT_EQ(result.exit_code, 0) << result.output;
-  const std::vector<Pose> found = read_trajectory(run / "trajectory.kitti").poses;
+  const std::vector<Pose> found = io::read_trajectory(run / "trajectory.kitti").poses;
   ASSERT_EQ(found.size(), 154U);
   const std::vector<ReferencePair> pairs = pairs_of(*file, 0);
   ASSERT_EQ(pairs.size(), 90U);

@@ -10,8 +10,8 @@
 #include <limits>
 
 #include "app/sweep_logs.hpp"
+#include "loopmark/mapping/trajectory_metrics.hpp"
 #include "loopmark/mrpt_bridge/rawlog.hpp"
-#include "loopmark/slam/trajectory_metrics.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -34,12 +34,14 @@ ProgramResult map(const fs::path& log, const fs::path& run, const std::vector<st
 
 /// How far the trajectory of a run is from the poses of its log at most, metres.
 double worst_m(const fs::path& run, const std::vector<Pose>& truth) {
-  return absolute_error(read_trajectory(run / "trajectory.tum").poses, truth).max_m;
+  return mapping::absolute_error(io::read_trajectory(run / "trajectory.tum").poses, truth).max_m;
 }
 
-std::vector<Pose> truth_of(const fs::path& log) { return read_trajectory(log / "poses.txt").poses; }
+std::vector<Pose> truth_of(const fs::path& log) { return io::read_trajectory(log / "poses.txt").poses; }
 
-PointCloud scan_of(const fs::path& log, int scan) { return read_point_file(log / StreetLogs::scan_name(scan)).cloud; }
+PointCloud scan_of(const fs::path& log, int scan) {
+  return io::read_point_file(log / StreetLogs::scan_name(scan)).cloud;
+}
 
 TEST(MapBadInput, PointsThatMakeNoSenseAreLeftOutAndScansOfFewPointsSkipped) {
   const fs::path log = kLogs.make_log("senseless");
@@ -49,18 +51,18 @@ TEST(MapBadInput, PointsThatMakeNoSenseAreLeftOutAndScansOfFewPointsSkipped) {
     const float values[] = {std::nanf(""), kInf, -kInf, 1e30F, 5e4F};
     cloud.points[i] = Eigen::Vector3f(values[i / 10 % 5], 1.0F, 1.0F);
   }
-  write_pcd(log / StreetLogs::scan_name(7), cloud);
+  io::write_pcd(log / StreetLogs::scan_name(7), cloud);
   cloud = scan_of(log, 13);
   std::vector<std::size_t> ten(10);
   for (std::size_t i = 0; i < ten.size(); ++i) {
     ten[i] = 100 * i;
   }
-  write_pcd(log / StreetLogs::scan_name(13), select(cloud, ten));
+  io::write_pcd(log / StreetLogs::scan_name(13), select(cloud, ten));
   const fs::path run = kLogs.new_run("senseless_run");
   const ProgramResult result = map(log, run);
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("1 damaged"));
-  EXPECT_THAT(read_file(run / "summary.json"), AllOf(HasSubstr("000013.pcd"), Not(HasSubstr("000007.pcd"))));
+  EXPECT_THAT(storage::read_file(run / "summary.json"), AllOf(HasSubstr("000013.pcd"), Not(HasSubstr("000007.pcd"))));
   EXPECT_LT(worst_m(run, truth_of(log)), 0.3);
 }
 
@@ -91,7 +93,7 @@ TEST(MapBadInput, GapsInTime) {
   const ProgramResult result = map(log, run);
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_LT(worst_m(run, truth), 0.3);
-  EXPECT_THAT(read_file(run / "summary.json"), HasSubstr("\"scans\": 20,"));
+  EXPECT_THAT(storage::read_file(run / "summary.json"), HasSubstr("\"scans\": 20,"));
 }
 
 TEST(MapBadInput, TimesThatRepeatOrGoBackAreSaidAndDoNotBendTheMap) {
@@ -116,7 +118,7 @@ TEST(MapBadInput, PosesOfAnotherLengthAreSaidAndNotUsed) {
   const fs::path log = kLogs.make_log("poses");
   std::vector<Pose> poses = truth_of(log);
   poses.pop_back();
-  write_kitti(log / "poses.txt", poses);
+  io::write_kitti(log / "poses.txt", poses);
   const fs::path run = kLogs.new_run("poses_run");
   const ProgramResult result = map(log, run);
   ASSERT_EQ(result.exit_code, 0) << result.output;
@@ -127,7 +129,7 @@ TEST(MapBadInput, PosesOfAnotherLengthAreSaidAndNotUsed) {
 fs::path make_rawlog(const std::string& name) {
   const fs::path log = kLogs.make_log(name);
   const fs::path file = kLogs.scratch(name + ".rawlog");
-  RawlogWriter writer(file, "top");
+  mrpt_bridge::RawlogWriter writer(file, "top");
   for (std::size_t i = 0; i < kScans; ++i) {
     writer.add({i, 100.0 + 0.1 * static_cast<double>(i), scan_of(log, static_cast<int>(i))});
   }
@@ -137,9 +139,9 @@ fs::path make_rawlog(const std::string& name) {
 
 TEST(MapBadInput, RawlogsThatCannotBeReadAreNamed) {
   const fs::path garbage = kLogs.scratch("garbage.rawlog");
-  write_file_atomically(garbage, std::string(5000, 'x'));
+  storage::write_file_atomically(garbage, std::string(5000, 'x'));
   const fs::path empty = kLogs.scratch("empty.rawlog");
-  write_file_atomically(empty, "");
+  storage::write_file_atomically(empty, "");
   for (const fs::path& file : {garbage, empty}) {
     const fs::path run = kLogs.new_run("garbage_run");
     const ProgramResult result = map(file, run);
@@ -156,7 +158,7 @@ TEST(MapBadInput, OfARawlogThatIsCutOffTheScansBeforeAreMapped) {
   const ProgramResult result = map(file, run);
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("truncated"));
-  const std::size_t found = read_trajectory(run / "trajectory.tum").poses.size();
+  const std::size_t found = io::read_trajectory(run / "trajectory.tum").poses.size();
   EXPECT_GT(found, 4U);
   EXPECT_LT(found, kScans);
 }
@@ -169,7 +171,7 @@ TEST(MapBadInput, YamlThatIsNoneIsNamedWithItsLine) {
                                                        {"slam:\n  keyframe_metres: 2\n", ":2"},
                                                        {"slam: 3\n", ":1"}};
   for (const auto& [text, line] : cases) {
-    write_file_atomically(file, text);
+    storage::write_file_atomically(file, text);
     const fs::path run = kLogs.new_run("yaml_run");
     const ProgramResult result = map(log, run, {"--config", file});
     EXPECT_EQ(result.exit_code, 2) << text;
@@ -235,7 +237,7 @@ TEST_F(AsNobody, ALogThatMayNotBeReadIsNamed) {
 TEST(MapBadInput, AnOutputBelowAFileIsNamed) {
   const fs::path log = kLogs.make_log("below_a_file");
   const fs::path file = kLogs.scratch("file");
-  write_file_atomically(file, "x");
+  storage::write_file_atomically(file, "x");
   const ProgramResult result = map(log, file / "run");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.output, HasSubstr((file / "run").string()));

@@ -45,7 +45,7 @@ void expect_nothing_half_written(const fs::path& partial) {
     const fs::path twin = whole().run / fs::relative(entry.path(), partial);
     const bool grows = entry.path().extension() == ".rec" || entry.path().parent_path().filename() == "records";
     if (entry.is_regular_file() && !grows && name != "manifest.json") {
-      EXPECT_EQ(sha256_of_file(entry.path()), sha256_of_file(twin)) << entry.path();
+      EXPECT_EQ(storage::sha256_of_file(entry.path()), storage::sha256_of_file(twin)) << entry.path();
     }
   }
 }

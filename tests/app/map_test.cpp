@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "app/sweep_logs.hpp"
-#include "loopmark/slam/trajectory_metrics.hpp"
+#include "loopmark/mapping/trajectory_metrics.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -42,9 +42,9 @@ TEST(Map, LeavesAWholeRunAndNeverOverwritesIt) {
   }
   EXPECT_TRUE(fs::exists(run / "manifest.json"));
   EXPECT_TRUE(fs::exists(run / "report.html"));
-  const std::vector<Pose> found = read_trajectory(run / "trajectory.tum").poses;
+  const std::vector<Pose> found = io::read_trajectory(run / "trajectory.tum").poses;
   ASSERT_EQ(found.size(), static_cast<std::size_t>(kScans));
-  EXPECT_LT(absolute_error(found, read_trajectory(log / "poses.txt").poses).rmse_m, 0.1);
+  EXPECT_LT(mapping::absolute_error(found, io::read_trajectory(log / "poses.txt").poses).rmse_m, 0.1);
   EXPECT_THAT(result.output, testing::HasSubstr("ATE"));
 
   const ProgramResult again = map(log, run);
@@ -90,10 +90,11 @@ TEST(Map, SkipsDamagedScansUpToALimit) {
   const ProgramResult result = map(log, run);
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, testing::HasSubstr("2 damaged"));
-  EXPECT_EQ(read_trajectory(run / "trajectory.tum").poses.size(), static_cast<std::size_t>(kScans));
-  EXPECT_LT(
-      absolute_error(read_trajectory(run / "trajectory.tum").poses, read_trajectory(log / "poses.txt").poses).max_m,
-      0.3);
+  EXPECT_EQ(io::read_trajectory(run / "trajectory.tum").poses.size(), static_cast<std::size_t>(kScans));
+  EXPECT_LT(mapping::absolute_error(io::read_trajectory(run / "trajectory.tum").poses,
+                                    io::read_trajectory(log / "poses.txt").poses)
+                .max_m,
+            0.3);
 
   const ProgramResult strict = map(log, new_run("strict"), {"--set", "slam.max_bad_scans=1"});
   EXPECT_EQ(strict.exit_code, 2);
@@ -110,7 +111,7 @@ TEST(Map, SaysWhatIsWrongWithItsArguments) {
   EXPECT_EQ(RunningProgram({"map", "--resume", new_run("c")}).wait().exit_code, 2);
   EXPECT_EQ(RunningProgram({"map", log}).wait().exit_code, 2);
   const fs::path truth = scratch("truth.txt");
-  write_kitti(truth, {Pose::Identity(), Pose::Identity()});
+  io::write_kitti(truth, {Pose::Identity(), Pose::Identity()});
   const ProgramResult wrong = map(log, new_run("d"), {"--truth", truth});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.output, testing::HasSubstr("2 poses for 24 scans"));

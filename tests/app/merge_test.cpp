@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 #include "street_log.hpp"
 #include "support/run_program.hpp"
 #include "synthetic_run.hpp"
@@ -46,12 +46,12 @@ class Merge : public ::testing::Test {
     ASSERT_EQ(result.exit_code, 0) << result.output;
   }
   nlohmann::json summary(const std::string& run) const {
-    return nlohmann::json::parse(read_file(folder_ / run / "summary.json"));
+    return nlohmann::json::parse(storage::read_file(folder_ / run / "summary.json"));
   }
 
   /// Candidates of a run that stand in its records more than once.
   std::ptrdiff_t pairs_tried_twice(const std::string& run) const {
-    std::istringstream csv(read_file(folder_ / run / "loops.csv"));
+    std::istringstream csv(storage::read_file(folder_ / run / "loops.csv"));
     std::multiset<std::string> pairs;
     for (std::string line; std::getline(csv, line);) {
       pairs.insert(line.substr(0, line.find(',', line.find(',') + 1)));
@@ -133,7 +133,7 @@ TEST_F(Merge, ExtendMapsALogAndJoinsIt) {
   map("run", driven(here, 0, 50, 0.0));
   const std::string more = log("more", driven(here, 70, 10, 0.0), 24);
   const std::string foreign = log("foreign", driven(elsewhere, 0, 40, 0.0), 24);
-  const std::string before = read_file(folder_ / "run/manifest.json");
+  const std::string before = storage::read_file(folder_ / "run/manifest.json");
   const auto extend = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "extend");
     words.insert(words.end(), kStreetOptions.begin(), kStreetOptions.end());
@@ -150,12 +150,12 @@ TEST_F(Merge, ExtendMapsALogAndJoinsIt) {
   EXPECT_EQ(summary("wider")["scans"], 110);
   EXPECT_LT(summary("wider")["ate_rmse_m"].get<double>(), 0.25);
   EXPECT_FALSE(fs::exists(at("wider.drive")));
-  EXPECT_EQ(read_file(folder_ / "run/manifest.json"), before);
+  EXPECT_EQ(storage::read_file(folder_ / "run/manifest.json"), before);
 
   const ProgramResult in_place = extend({at("run"), more});
   ASSERT_EQ(in_place.exit_code, 0) << in_place.output;
   EXPECT_EQ(summary("run")["scans"], 110);
-  EXPECT_EQ(read_file(folder_ / "run.before-1/manifest.json"), before);
+  EXPECT_EQ(storage::read_file(folder_ / "run.before-1/manifest.json"), before);
   EXPECT_EQ(extend({at("run"), more, "-o", at("wider")}).exit_code, 2) << "never overwritten";
   EXPECT_EQ(extend({at("nowhere"), more, "-o", at("x")}).exit_code, 2);
   EXPECT_EQ(extend({at("run"), at("nowhere"), "-o", at("x")}).exit_code, 2);
@@ -171,7 +171,7 @@ TEST_F(Merge, ExtendSaysWhichEarlierDriveNoLongerHangsTogetherAndGoesOn) {
   const std::string more = log("more", driven(here, 45, 0, 0.0), 24);
   const ProgramResult result =
       run_program({"extend", at("run"), more, "--one-frame", "-q", "--set", "slam.compensation=compensated", "--set",
-                   "slam.piece_candidates=1", "--set", "pose_graph.min_links=14"});
+                   "slam.segment_candidates=1", "--set", "pose_graph.min_links=14"});
   ASSERT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("warning: drive 'edge' (28 scans) does not belong and is left out: "));
   const nlohmann::json extended = summary("run");
@@ -185,8 +185,9 @@ TEST_F(Merge, SaysWhatIsWrongWithTheRuns) {
   const SyntheticRun made(folder_ / "one");
   fs::copy(folder_ / "one", folder_ / "copy", fs::copy_options::recursive);
   const auto manifest = [&](const std::string& run, const std::string& program) {
-    write_file_atomically(folder_ / run / "manifest.json",
-                          "{\"program\": \"" + program + "\", \"input\": {\"log\": \"somewhere\"}, \"sha256\": {}}\n");
+    storage::write_file_atomically(
+        folder_ / run / "manifest.json",
+        "{\"program\": \"" + program + "\", \"input\": {\"log\": \"somewhere\"}, \"sha256\": {}}\n");
   };
   manifest("one", "loopmark 0.1.0");
   manifest("copy", "loopmark 0.1.7");
@@ -213,7 +214,7 @@ TEST_F(Merge, SaysWhatIsWrongWithTheRuns) {
   told({"one", "one"}, "is given twice");
   told({"one", "copy"}, "is given twice");
   told({"one", "old"}, "was made by loopmark 9.4.2, this is loopmark");
-  write_file_atomically(folder_ / "old/manifest.json", "{\"program\": ");
+  storage::write_file_atomically(folder_ / "old/manifest.json", "{\"program\": ");
   told({"one", "old"}, "is damaged");
   fs::create_directories(folder_ / "there");
   const ProgramResult taken = run_program({"merge", at("one"), at("copy"), "-o", at("there")});

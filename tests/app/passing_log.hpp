@@ -29,9 +29,9 @@ inline void write_passing_log(const std::filesystem::path& log, double offset_m,
     poses.push_back(pose_from_yaw(0.0, {static_cast<double>(i), offset_m, 1.8}));
     char file[32];
     std::snprintf(file, sizeof file, "%06d.pcd", i);
-    write_pcd(log / file, sweep(world, poses.back(), velocity, 0.02, noise + static_cast<std::uint64_t>(i)));
+    io::write_pcd(log / file, sweep(world, poses.back(), velocity, 0.02, noise + static_cast<std::uint64_t>(i)));
   }
-  write_kitti(log / "poses.txt", poses);
+  io::write_kitti(log / "poses.txt", poses);
 }
 
 /// The setting that such a log is mapped, drilled and relocalized with.

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "command.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/version.hpp"
+#include "loopmark/storage/files.hpp"
 #include "support/run_program.hpp"
 
 namespace loopmark::app {
@@ -57,18 +57,19 @@ TEST(Program, WrongInputIsExitCode2AndOneLine) {
 }
 
 TEST(ProgramOptions, DefaultFileIsTheDumpOfTheDefaults) {
-  EXPECT_EQ(read_file(LOOPMARK_SOURCE_DIR "/config/default.yaml"), options_as_yaml(AppOptions()))
+  EXPECT_EQ(storage::read_file(LOOPMARK_SOURCE_DIR "/config/default.yaml"),
+            workflows::options_as_yaml(workflows::ProgramOptions()))
       << "run: loopmark config dump -o config/default.yaml";
 }
 
 TEST(ProgramOptions, DumpIsCheckedAsFine) {
   const std::string file = testing::TempDir() + "loopmark_program_test.yaml";
   EXPECT_EQ(run_program({"config", "dump", "-o", file, "--set", "registration.hypotheses=7"}).exit_code, 0);
-  EXPECT_THAT(read_file(file), HasSubstr("hypotheses: 7 "));
+  EXPECT_THAT(storage::read_file(file), HasSubstr("hypotheses: 7 "));
   const ProgramResult check = run_program({"config", "check", file});
   EXPECT_EQ(check.exit_code, 0) << check.output;
   const ProgramResult again = run_program({"--config", file, "config", "dump"});
-  EXPECT_EQ(again.output, read_file(file));
+  EXPECT_EQ(again.output, storage::read_file(file));
 }
 
 TEST(ProgramOptions, UnknownKeyNamesFileLineAndTheNearest) {

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/io/trajectory.hpp"
+#include "loopmark/storage/files.hpp"
 #include "support/run_program.hpp"
 #include "support/shared_data.hpp"
 
@@ -76,7 +76,7 @@ class RelocalizationOnLogs : public ::testing::Test {
     fs::remove_all(folder_ / "where");
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    return nlohmann::json::parse(read_file(folder_ / "where" / "summary.json"));
+    return nlohmann::json::parse(storage::read_file(folder_ / "where" / "summary.json"));
   }
 
   const fs::path folder_ =
@@ -86,16 +86,16 @@ class RelocalizationOnLogs : public ::testing::Test {
 TEST_F(RelocalizationOnLogs, OddScansAreFoundInAMapOfTheEvenOnes) {
   const nlohmann::json followed = relocalize({});
   EXPECT_EQ(followed["scans"], 50);
-  EXPECT_GE(followed["judged"], 48) << read_file(folder_ / "where" / "relocalization.csv");
-  EXPECT_EQ(followed["wrong"], 0) << read_file(folder_ / "where" / "relocalization.csv");
-  EXPECT_EQ(followed["losses"], 0) << read_file(folder_ / "where" / "relocalization.csv");
+  EXPECT_GE(followed["judged"], 48) << storage::read_file(folder_ / "where" / "relocalization.csv");
+  EXPECT_EQ(followed["wrong"], 0) << storage::read_file(folder_ / "where" / "relocalization.csv");
+  EXPECT_EQ(followed["losses"], 0) << storage::read_file(folder_ / "where" / "relocalization.csv");
   EXPECT_LE(followed["first_answer_s"], 2.0);
   EXPECT_LT(followed["median_error_m"], 0.15);
 
   const nlohmann::json alone = relocalize({"--single", "--every", "10"});
   EXPECT_EQ(alone["scans"], 5);
-  EXPECT_GE(alone["judged"], 4) << read_file(folder_ / "where" / "relocalization.csv");
-  EXPECT_EQ(alone["wrong"], 0) << read_file(folder_ / "where" / "relocalization.csv");
+  EXPECT_GE(alone["judged"], 4) << storage::read_file(folder_ / "where" / "relocalization.csv");
+  EXPECT_EQ(alone["wrong"], 0) << storage::read_file(folder_ / "where" / "relocalization.csv");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 #include "passing_log.hpp"
 #include "relocalization_rows.hpp"
 #include "support/run_program.hpp"
@@ -59,7 +59,9 @@ class Relocalize : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words);
   }
-  static nlohmann::json summary(const fs::path& out) { return nlohmann::json::parse(read_file(out / "summary.json")); }
+  static nlohmann::json summary(const fs::path& out) {
+    return nlohmann::json::parse(storage::read_file(out / "summary.json"));
+  }
 
   /// Of an answer, from the truth of a log of day2(): scans a metre apart.
   static double error_m(const RelocalizationRow& row) {
@@ -69,7 +71,7 @@ class Relocalize : public ::testing::Test {
 
 /// Without the scans from `first` to before `end`, so that the sensor jumps there, `gap_s` later.
 void cut_out(const fs::path& log, std::size_t first, std::size_t end, double gap_s) {
-  std::vector<Pose> poses = read_trajectory(log / "poses.txt").poses;
+  std::vector<Pose> poses = io::read_trajectory(log / "poses.txt").poses;
   std::vector<Pose> kept;
   std::ofstream times(log / "times.txt");
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -83,7 +85,7 @@ void cut_out(const fs::path& log, std::size_t first, std::size_t end, double gap
     kept.push_back(poses[i]);
   }
   times.close();
-  write_kitti(log / "poses.txt", kept);
+  io::write_kitti(log / "poses.txt", kept);
 }
 
 TEST_F(Relocalize, EveryScanOfAnotherDriveIsFollowedOnceItIsFound) {
@@ -108,10 +110,10 @@ TEST_F(Relocalize, EveryScanOfAnotherDriveIsFollowedOnceItIsFound) {
       EXPECT_NE(row.reason, "") << "scan " << i;
     }
   }
-  EXPECT_GE(answered, 25U) << read_file(out / "relocalization.csv");
+  EXPECT_GE(answered, 25U) << storage::read_file(out / "relocalization.csv");
   EXPECT_EQ(rows.back().state, "tracking");
 
-  const Trajectory tum = read_trajectory(out / "trajectory.tum");
+  const io::Trajectory tum = io::read_trajectory(out / "trajectory.tum");
   ASSERT_EQ(tum.poses.size(), answered);
   EXPECT_LT(pose_error(tum.poses.back(), rows.back().T_map_lidar).translation_m, 1e-6);
   const nlohmann::json all = summary(out);
@@ -134,7 +136,7 @@ TEST_F(Relocalize, AJumpIsNoticedAndThePlaceIsFoundAgain) {
   const std::vector<RelocalizationRow> rows = relocalization_rows(out / "relocalization.csv");
   ASSERT_EQ(rows.size(), 35U);
   EXPECT_EQ(rows[14].state, "tracking");
-  EXPECT_TRUE(rows[15].given_up) << read_file(out / "relocalization.csv");
+  EXPECT_TRUE(rows[15].given_up) << storage::read_file(out / "relocalization.csv");
   EXPECT_EQ(rows[15].answered, rows[15].state == "tracking") << "lost, or found again with the same scan";
   EXPECT_EQ(rows.back().state, "tracking") << "found again";
   const nlohmann::json all = summary(out);

@@ -43,11 +43,11 @@ inline void write_street_log(const std::filesystem::path& log, const std::vector
     cloud.time_offset_s.clear();
     std::string number = std::to_string(i);
     number.insert(0, 6 - number.size(), '0');
-    write_pcd(log / (number + ".pcd"), cloud);
+    io::write_pcd(log / (number + ".pcd"), cloud);
     times << scans[i].stamp_s << "\n";
     poses.push_back(scans[i].T_street_lidar);
   }
-  write_kitti(log / "poses.txt", poses);
+  io::write_kitti(log / "poses.txt", poses);
 }
 
 /// What loopmark map has to be told of such a log.

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
+#include "loopmark/storage/files.hpp"
 #include "support/box_world.hpp"
 #include "support/run_program.hpp"
 
@@ -51,10 +51,10 @@ class StreetLogs {
     for (int i = 0; i < kScans; ++i) {
       stamps.push_back(0.1 * i);
       poses.push_back(pose_from_yaw(-0.05, {0.0, 0.0, 1.8}) * exp_se3(0.1 * i * velocity));
-      write_pcd(log / scan_name(i), sweep(world, poses.back(), velocity, 0.02, static_cast<std::uint64_t>(i)));
+      io::write_pcd(log / scan_name(i), sweep(world, poses.back(), velocity, 0.02, static_cast<std::uint64_t>(i)));
     }
     write_times(log, stamps);
-    write_kitti(log / "poses.txt", poses);
+    io::write_kitti(log / "poses.txt", poses);
     return log;
   }
 
@@ -97,7 +97,7 @@ inline const char* const kMapProducts[] = {"trajectory.tum", "trajectory.kitti",
 
 inline void expect_same_products(const std::filesystem::path& a, const std::filesystem::path& b) {
   for (const char* const product : kMapProducts) {
-    EXPECT_EQ(sha256_of_file(a / product), sha256_of_file(b / product)) << product;
+    EXPECT_EQ(storage::sha256_of_file(a / product), storage::sha256_of_file(b / product)) << product;
   }
 }
 

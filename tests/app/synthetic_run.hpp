@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "app_options.hpp"
 #include "loopmark/cloud/voxel.hpp"
-#include "loopmark/core/files.hpp"
-#include "loopmark/core/record_file.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
-#include "loopmark/places/place_signature.hpp"
+#include "loopmark/map_store/run_folder.hpp"
+#include "loopmark/map_store/run_records.hpp"
+#include "loopmark/places/place_descriptor.hpp"
 #include "loopmark/registration/engine.hpp"
-#include "loopmark/slam/run_folder.hpp"
-#include "loopmark/slam/run_records.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/storage/record_file.hpp"
+#include "loopmark/workflows/options.hpp"
 #include "support/box_world.hpp"
 
 namespace loopmark::testing_support {
@@ -30,19 +30,19 @@ struct SyntheticRun {
 
   /// Writes the run. Loops join k(39 - i) to k(i), i = 0, 3, 6, right within 2 cm; k30-k8 is 6 m wrong.
   explicit SyntheticRun(const std::filesystem::path& path) {
-    RunFolder folder = RunFolder::create(path);
+    map_store::RunFolder folder = map_store::RunFolder::create(path);
     write_scans(folder);
-    write_loop_records(folder,
-                       {loop(39, 0, 0.02), loop(36, 3, 0.02), loop(33, 6, 0.02), loop(30, 8, 6.0), withheld(28, 11)});
+    map_store::write_loop_records(
+        folder, {loop(39, 0, 0.02), loop(36, 3, 0.02), loop(33, 6, 0.02), loop(30, 8, 6.0), withheld(28, 11)});
     write_keyframes(folder);
-    write_file_atomically(folder / "config.yaml", app::options_as_yaml(app::AppOptions()));
+    storage::write_file_atomically(folder / "config.yaml", workflows::options_as_yaml(workflows::ProgramOptions()));
     std::vector<double> stamps(truth.size());
-    write_tum(folder / "records/truth.tum", stamps, truth);
-    write_tum(folder / "trajectory.tum", stamps, truth);
-    write_file_atomically(folder / "summary.json", "{\"compensation\": \"compensated already\"}\n");
-    write_file_atomically(folder / "timings.json", "{\"whole\": 12.0}\n");
-    write_file_atomically(folder / "cloud.ply", "old");
-    write_file_atomically(folder / "manifest.json", "{\"input\": {\"log\": \"somewhere\"}, \"sha256\": {}}\n");
+    io::write_tum(folder / "records/truth.tum", stamps, truth);
+    io::write_tum(folder / "trajectory.tum", stamps, truth);
+    storage::write_file_atomically(folder / "summary.json", "{\"compensation\": \"compensated already\"}\n");
+    storage::write_file_atomically(folder / "timings.json", "{\"whole\": 12.0}\n");
+    storage::write_file_atomically(folder / "cloud.ply", "old");
+    storage::write_file_atomically(folder / "manifest.json", "{\"input\": {\"log\": \"somewhere\"}, \"sha256\": {}}\n");
     folder.finish();
   }
 
@@ -57,26 +57,27 @@ struct SyntheticRun {
     return pose_from_yaw(back ? M_PI : 0.0, {x, back ? 1.0 : 0.0, 1.8});
   }
 
-  void write_scans(const RunFolder& folder) {
-    RecordWriter file(folder.scan_records());
-    Pose T_piece_lidar = Pose::Identity();
+  void write_scans(const map_store::RunFolder& folder) {
+    storage::RecordWriter file(folder.scan_records());
+    Pose T_segment_lidar = Pose::Identity();
     for (std::size_t k = 0; k < kKeyframes; ++k) {
       if (k > 0) {  // odometry turns 0.15 degrees too far a keyframe
-        T_piece_lidar = T_piece_lidar * place(k - 1).inverse() * place(k) * pose_from_yaw(0.15 * M_PI / 180.0);
+        T_segment_lidar = T_segment_lidar * place(k - 1).inverse() * place(k) * pose_from_yaw(0.15 * M_PI / 180.0);
       }
-      add(file, place(k), T_piece_lidar, k);
+      add(file, place(k), T_segment_lidar, k);
       if (k % 5 == 4) {
-        add(file, place(k), T_piece_lidar, std::nullopt);
+        add(file, place(k), T_segment_lidar, std::nullopt);
       }
     }
   }
 
-  void add(RecordWriter& file, const Pose& true_pose, const Pose& T_piece_lidar, std::optional<std::size_t> keyframe) {
-    ScanRecord record;
+  void add(storage::RecordWriter& file, const Pose& true_pose, const Pose& T_segment_lidar,
+           std::optional<std::size_t> keyframe) {
+    map_store::ScanRecord record;
     record.scan = truth.size();
     record.stamp_s = 0.5 * static_cast<double>(truth.size());
     record.keyframe = keyframe;
-    record.T_piece_lidar = T_piece_lidar;
+    record.T_segment_lidar = T_segment_lidar;
     record.inlier_share = 0.9;
     record.covariance = 1e-6 * Matrix6d::Identity();
     file.append(to_line(record));
@@ -86,8 +87,8 @@ struct SyntheticRun {
     truth.push_back(true_pose);
   }
 
-  LoopRecord loop(std::size_t source, std::size_t target, double off_m) const {
-    LoopRecord record;
+  map_store::LoopRecord loop(std::size_t source, std::size_t target, double off_m) const {
+    map_store::LoopRecord record;
     record.source = source;
     record.target = target;
     record.origin = "place";
@@ -99,24 +100,24 @@ struct SyntheticRun {
     return record;
   }
 
-  LoopRecord withheld(std::size_t source, std::size_t target) const {
-    LoopRecord record = loop(source, target, 0.0);
+  map_store::LoopRecord withheld(std::size_t source, std::size_t target) const {
+    map_store::LoopRecord record = loop(source, target, 0.0);
     record.answered = false;
     record.p_correct = 0.2;
     record.reason = "two answers are alike";
     return record;
   }
 
-  void write_keyframes(const RunFolder& folder) const {
+  void write_keyframes(const map_store::RunFolder& folder) const {
     const BoxWorld world = street(80.0, 3);
     for (std::size_t k = 0; k < kKeyframes; ++k) {
       const PointCloud seen = sweep(world, place(k), Vector6d::Zero(), 0.01, k);
-      const PointCloud thin = voxel_downsampled(seen, 0.2);
+      const PointCloud thin = cloud::voxel_downsampled(seen, 0.2);
       PointCloud kept;
       kept.points = thin.points;
-      write_pcd(folder.keyframe(k, "pcd"), kept);
-      write_file_atomically(folder.keyframe(k, "place"), place_signature(thin.points).to_bytes());
-      write_file_atomically(folder.keyframe(k, "prepared"), prepare_scan(kept, {}).to_bytes());
+      io::write_pcd(folder.keyframe(k, "pcd"), kept);
+      storage::write_file_atomically(folder.keyframe(k, "place"), places::place_descriptor(thin.points).to_bytes());
+      storage::write_file_atomically(folder.keyframe(k, "prepared"), registration::prepare_scan(kept, {}).to_bytes());
     }
   }
 };

@@ -68,7 +68,7 @@ TEST_F(WhyCommand, AScanThatIsNoKeyframeStandsForTheOneBefore) { EXPECT_EQ(told(
 TEST_F(WhyCommand, DrawsThePair) {
   const fs::path picture = folder_ / "pair.png";
   EXPECT_EQ(run_program({"why", run().string(), "k39", "k0", "--picture", picture.string()}).exit_code, 0);
-  EXPECT_EQ(read_file(picture).substr(1, 3), "PNG");
+  EXPECT_EQ(storage::read_file(picture).substr(1, 3), "PNG");
 }
 
 TEST_F(WhyCommand, WrongInputIsTold) {

@@ -8,7 +8,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 namespace {
 
 TEST(Deskew, TimeFollowsTheAzimuth) {
@@ -51,4 +51,4 @@ TEST(Deskew, LeavesAStandingSensorAlone) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::cloud

@@ -13,7 +13,7 @@
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ TEST(OverviewCloud, GrowsItsVoxelsInsteadOfItself) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::cloud

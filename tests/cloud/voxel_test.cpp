@@ -12,7 +12,7 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 namespace {
 
 std::vector<Eigen::Vector3f> random_points(std::size_t count, double extent, std::uint64_t seed) {
@@ -103,4 +103,4 @@ TEST(Overlap, SymmetricIsTheSmallerShare) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::cloud

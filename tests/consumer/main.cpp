@@ -7,6 +7,7 @@
 
 int main() {
   const loopmark::Pose turn = loopmark::pose_from_yaw(0.5);
-  const auto kept = loopmark::voxel_first_indices({{0.0F, 0.0F, 0.0F}, {0.1F, 0.0F, 0.0F}, {3.0F, 0.0F, 0.0F}}, 1.0);
+  const auto kept =
+      loopmark::cloud::voxel_first_indices({{0.0F, 0.0F, 0.0F}, {0.1F, 0.0F, 0.0F}, {3.0F, 0.0F, 0.0F}}, 1.0);
   std::cout << kept.size() << " " << loopmark::rotation_angle_degrees(turn.linear()) << "\n";
 }

@@ -8,7 +8,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 namespace {
 
 struct Pair {
@@ -57,4 +57,4 @@ TEST(BinaryEnergy, FindsTheMinimumOfAllLabellings) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::estimation

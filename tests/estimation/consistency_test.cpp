@@ -10,7 +10,7 @@
 #include "loopmark/estimation/spatial_consistency.hpp"
 #include "synthetic_matches.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 namespace {
 
 using testing_support::synthetic_matches;
@@ -154,4 +154,4 @@ TEST(Gnc, TooFewMatchesAreNoAnswer) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::estimation

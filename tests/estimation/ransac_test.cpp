@@ -10,7 +10,7 @@
 
 #include "synthetic_matches.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 namespace {
 
 using testing_support::synthetic_matches;
@@ -152,4 +152,4 @@ TEST(Ransac, IterationsNeededIsTheRuleOfThePaper) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::estimation

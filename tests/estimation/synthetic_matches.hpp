@@ -9,7 +9,7 @@
 namespace loopmark::testing_support {
 
 struct SyntheticMatches {
-  PointPairs pairs;
+  estimation::PointPairs pairs;
   Pose T_target_source = Pose::Identity();
   std::vector<bool> inlier;
 };

@@ -7,13 +7,13 @@
 
 #include <filesystem>
 
-#include "evaluation/pair_files.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/interrupt.hpp"
-#include "loopmark/registration/named_algorithms.hpp"
+#include "loopmark/feature_registration/named_algorithms.hpp"
+#include "loopmark/storage/files.hpp"
+#include "pair_sets/pair_files.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,9 +79,9 @@ class ExperimentRun : public testing::Test {
   }
   std::string products(const fs::path& folder) const {
     write_products(folder, read_result(folder));
-    std::string bytes = read_file(folder / "results.csv") + read_file(folder / "motions/a1.txt");
+    std::string bytes = storage::read_file(folder / "results.csv") + storage::read_file(folder / "motions/a1.txt");
     for (const char* table : {"overview", "errors", "by_overlap", "certainty", "reliability", "paired"}) {
-      bytes += read_file(folder / "tables" / (std::string(table) + ".md"));
+      bytes += storage::read_file(folder / "tables" / (std::string(table) + ".md"));
     }
     return bytes;
   }
@@ -150,9 +150,9 @@ TEST_F(ExperimentRun, CutAnywhereItResumesToTheSameBytes) {
 TEST_F(ExperimentRun, DamageInTheMiddleOfAShardIsToldWithItsLine) {
   run(folder_ / "whole", task_);
   const fs::path file = folder_ / "whole/shards/1-of-1.records";
-  std::string content = read_file(file);
+  std::string content = storage::read_file(file);
   content[content.find('\n') + 30] ^= 1;
-  write_file_atomically(file, content);
+  storage::write_file_atomically(file, content);
   try {
     read_result(folder_ / "whole");
     FAIL();
@@ -252,7 +252,7 @@ TEST(NamedAlgorithm, RunsThePapersPipelineWithItsOwnSeed) {
 }
 
 double seconds_of(const Answer& answer, const std::string& stage) {
-  for (const StageTime& time : answer.timings) {
+  for (const registration::StageTime& time : answer.timings) {
     if (time.stage == stage) {
       return time.seconds;
     }
@@ -276,15 +276,16 @@ TEST(NamedAlgorithm, DescribesAndMatchesAPairOnceForAllThatDescribeAlike) {
 TEST(ConfiguredAlgorithm, DoesWhatTheNamedOneOfItsOptionsDoes) {
   PairScans scans(corner(), transformed(corner(), pose_from_yaw(0.3, {2.0, 1.0, 0.0})));
   const PairTask task{0, {}, &scans, nullptr, nullptr};
-  const auto custom = make_configured_algorithm("custom", named_algorithm("gnc_core"), "options\n");
+  const auto custom =
+      make_configured_algorithm("custom", feature_registration::named_algorithm("gnc_core"), "options\n");
   EXPECT_EQ(custom->name(), "custom");
   EXPECT_THAT(custom->settings(), testing::HasSubstr("options\n"));
   EXPECT_EQ(custom->answer(task).T_target_source.matrix(),
             make_named_algorithm("gnc_core")->answer(task).T_target_source.matrix());
-  PaperOptions bad;
+  feature_registration::FeatureRegistrationOptions bad;
   bad.voxel_m = 0.0;
   EXPECT_THROW(make_configured_algorithm("custom", bad, ""), InputError);
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -7,11 +7,11 @@
 
 #include <fstream>
 
-#include "evaluation/pair_files.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/progress.hpp"
+#include "pair_sets/pair_files.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 using testing::HasSubstr;
@@ -103,4 +103,4 @@ TEST(ExternalAlgorithm, ThatDoesNotStartIsToldAtOnce) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

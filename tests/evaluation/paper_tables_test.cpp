@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "evaluation/pair_files.hpp"
 #include "loopmark/evaluation/paper_numbers.hpp"
+#include "pair_sets/pair_files.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 /// Twenty pairs on which algorithm k is right except for every (k + 2)th pair, in k + 1 seconds.
@@ -59,7 +59,7 @@ TEST(Variants, GatherTheRepeatsOfAName) {
 }
 
 TEST(EvaluationTable, PutsIcpBesideItsAlgorithmAndThePaperBelow) {
-  const TextTable table = paper_evaluation_table(made_up_result({"x", "x+icp"}), false);
+  const text::TextTable table = paper_evaluation_table(made_up_result({"x", "x+icp"}), false);
   ASSERT_EQ(table.rows.size(), 1U + paper::evaluation().size());
   EXPECT_THAT(table.rows[0], testing::ElementsAre("x", "50.00 %", "1.000", "65.00 %", "2.000"));
   EXPECT_THAT(table.rows.back(),
@@ -71,7 +71,7 @@ TEST(MatrixTable, SplitsTrainDomains) {
   const auto domains = split_by_domain("Town", "-", result);
   ASSERT_EQ(domains.size(), 3U);
   EXPECT_THAT(domains[0].result.experiment.algorithms, testing::ElementsAre("x", "x+icp"));
-  const TextTable table = paper_matrix_table(domains);
+  const text::TextTable table = paper_matrix_table(domains);
   EXPECT_EQ(table.rows[0][1], "Boston");
   EXPECT_EQ(table.rows[0][2], "50.00 %");
   EXPECT_EQ(table.rows[1][2], "75.00 %");
@@ -94,11 +94,11 @@ TEST(FailureTable, CountsEveryPairOnceForEachQuantity) {
 }
 
 TEST(TextTables, EscapeWhatMarkdownAndLatexWouldRead) {
-  const TextTable table{"t", "50 % of a_b", {"a|b", "c"}, {{"x & y", "1 %"}}, ""};
-  EXPECT_THAT(to_markdown(table), testing::HasSubstr("| a\\|b | c |"));
-  EXPECT_THAT(to_latex(table),
+  const text::TextTable table{"t", "50 % of a_b", {"a|b", "c"}, {{"x & y", "1 %"}}, ""};
+  EXPECT_THAT(text::to_markdown(table), testing::HasSubstr("| a\\|b | c |"));
+  EXPECT_THAT(text::to_latex(table),
               testing::AllOf(testing::HasSubstr("50 \\% of a\\_b"), testing::HasSubstr("x \\& y & 1 \\% \\\\")));
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -10,9 +10,9 @@
 #include <fstream>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
 using testing::HasSubstr;
@@ -62,7 +62,7 @@ std::string zip(const std::vector<std::pair<std::string, std::string>>& members,
   std::string directory;
   for (const auto& [name, content] : members) {
     const std::string packed = compress ? deflated(content) : content;
-    const std::string common = number(compress ? 8 : 0, 2) + number(0, 4) + number(crc32(content), 4) +
+    const std::string common = number(compress ? 8 : 0, 2) + number(0, 4) + number(storage::crc32(content), 4) +
                                number(packed.size(), 4) + number(content.size(), 4) + number(name.size(), 2);
     directory += "PK\1\2" + number(20, 2) + number(20, 2) + number(0, 2) + common + number(0, 2) + number(0, 2) +
                  number(0, 2) + number(0, 2) + number(0, 4) + number(out.size(), 4) + name;
@@ -155,4 +155,4 @@ TEST(DescriptorFile, NoDamageGoesUnnoticedOrBreaksTheReader) {
 TEST(DescriptorFile, SaysWhenThereIsNoFile) { EXPECT_THROW(read_descriptors("/no/such/file.npz"), InputError); }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::features

@@ -11,7 +11,7 @@
 #include "loopmark/features/normals.hpp"
 #include "rough_yard.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
 struct PclCloud {
@@ -36,7 +36,7 @@ TEST(FpfhPcl, CosineOfNearlyAllDescriptorsIsOne) {
   const auto normals = estimate_normals(points, normal_options).vectors;
   FpfhOptions options;
   options.radius_m = 2.0;
-  const DescriptorMatrix ours = fpfh(points, normals, options);
+  const search::DescriptorMatrix ours = fpfh(points, normals, options);
 
   const PclCloud cloud = to_pcl(points, normals);
   pcl::FPFHEstimation<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> estimation;
@@ -74,6 +74,6 @@ TEST(FpfhPcl, NormalsAgree) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::features
 
 #endif  // LOOPMARK_HAVE_PCL

@@ -13,7 +13,7 @@
 #include "loopmark/features/normals.hpp"
 #include "rough_yard.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
 using testing_support::rough_yard;
@@ -61,7 +61,7 @@ TEST(Fpfh, IsThatOfTheDefinition) {
   const auto normals = estimate_normals(points, {}).vectors;
   FpfhOptions options;
   options.radius_m = 1.5;
-  const DescriptorMatrix found = fpfh(points, normals, options);
+  const search::DescriptorMatrix found = fpfh(points, normals, options);
   std::vector<Eigen::VectorXd> spfh(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     spfh[i] = reference_spfh(points, normals, i, options.radius_m);
@@ -95,13 +95,13 @@ TEST(Fpfh, IsThatOfTheDefinition) {
 TEST(Fpfh, DoesNotChangeWithTheFrame) {
   auto points = rough_yard(1500, 2);
   auto normals = estimate_normals(points, {}).vectors;
-  const DescriptorMatrix before = fpfh(points, normals, {});
+  const search::DescriptorMatrix before = fpfh(points, normals, {});
   const Pose T = pose_from_yaw(2.2, {5, -3, 1});
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i] = (T * points[i].cast<double>()).cast<float>();
     normals[i] = (T.linear() * normals[i].cast<double>()).cast<float>();
   }
-  const DescriptorMatrix after = fpfh(points, normals, {});
+  const search::DescriptorMatrix after = fpfh(points, normals, {});
   std::size_t same = 0;
   for (Eigen::Index i = 0; i < before.rows(); ++i) {
     same += before.row(i).normalized().dot(after.row(i).normalized()) > 0.999F ? 1U : 0U;
@@ -112,9 +112,9 @@ TEST(Fpfh, DoesNotChangeWithTheFrame) {
 TEST(Fpfh, WantedRowsAreThoseOfAllPoints) {
   const auto points = rough_yard(900, 3);
   const auto normals = estimate_normals(points, {}).vectors;
-  const DescriptorMatrix all = fpfh(points, normals, {});
+  const search::DescriptorMatrix all = fpfh(points, normals, {});
   const std::vector<std::size_t> wanted{500, 3, 899, 42};
-  const DescriptorMatrix some = fpfh(points, normals, {}, wanted);
+  const search::DescriptorMatrix some = fpfh(points, normals, {}, wanted);
   ASSERT_EQ(some.rows(), 4);
   for (std::size_t r = 0; r < wanted.size(); ++r) {
     EXPECT_EQ(some.row(static_cast<Eigen::Index>(r)), all.row(static_cast<Eigen::Index>(wanted[r])));
@@ -124,10 +124,10 @@ TEST(Fpfh, WantedRowsAreThoseOfAllPoints) {
 TEST(Fpfh, PointsWithoutNormalHaveNoPart) {
   auto points = rough_yard(600, 4);
   auto normals = estimate_normals(points, {}).vectors;
-  const DescriptorMatrix before = fpfh(points, normals, {});
+  const search::DescriptorMatrix before = fpfh(points, normals, {});
   points.push_back(points[10] + Eigen::Vector3f(0.01F, 0, 0));
   normals.push_back(Eigen::Vector3f::Zero());
-  const DescriptorMatrix after = fpfh(points, normals, {});
+  const search::DescriptorMatrix after = fpfh(points, normals, {});
   EXPECT_TRUE(after.row(600).isZero());
   EXPECT_EQ(after.topRows(600), before);
 }
@@ -136,9 +136,9 @@ TEST(Fpfh, SameBytesAtAnyNumberOfThreads) {
   const auto points = rough_yard(2000, 5);
   const auto normals = estimate_normals(points, {}).vectors;
   set_thread_count(1);
-  const DescriptorMatrix one = fpfh(points, normals, {});
+  const search::DescriptorMatrix one = fpfh(points, normals, {});
   set_thread_count(4);
-  const DescriptorMatrix four = fpfh(points, normals, {});
+  const search::DescriptorMatrix four = fpfh(points, normals, {});
   set_thread_count(0);
   EXPECT_EQ(one, four);
 }
@@ -149,4 +149,4 @@ TEST(Fpfh, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::features

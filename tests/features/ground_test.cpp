@@ -8,7 +8,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
 TEST(Ground, TellsASlopeFromWhatStandsOnIt) {
@@ -47,4 +47,4 @@ TEST(Ground, TakesEmptyAndBrokenInput) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::features

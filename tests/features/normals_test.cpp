@@ -10,7 +10,7 @@
 #include "loopmark/core/parallel.hpp"
 #include "rough_yard.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
 using testing_support::rough_yard;
@@ -112,4 +112,4 @@ TEST(Normals, RefusesOptionsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::features

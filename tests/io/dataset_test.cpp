@@ -9,7 +9,7 @@
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/mrpt_bridge/rawlog.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,7 +62,7 @@ TEST(Dataset, KittiRawHasPosesFromItsGps) {
 TEST(Dataset, RawlogsAreSessionsToo) {
   const TemporaryFolder folder;
   for (const char* name : {"b.rawlog", "a.rawlog"}) {
-    RawlogWriter writer(folder / name, "top");
+    mrpt_bridge::RawlogWriter writer(folder / name, "top");
     writer.add({0, 1.0, marked_cloud(name[0] == 'a' ? 1 : 2)});
     writer.finish();
   }
@@ -199,4 +199,4 @@ TEST(Dataset, NothingThereIsAnError) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::io

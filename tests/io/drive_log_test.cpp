@@ -12,7 +12,7 @@
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/mrpt_bridge/rawlog.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -179,7 +179,7 @@ TEST(DriveLog, MulRanPosesAreThoseOfTheOuster) {
 
 TEST(DriveLog, RawlogsAreLogsLikeOthers) {
   const TemporaryFolder folder;
-  RawlogWriter writer(folder / "drive.rawlog", "top");
+  mrpt_bridge::RawlogWriter writer(folder / "drive.rawlog", "top");
   PointCloud cloud = random_cloud(60);
   cloud.points[3].setConstant(std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < 3; ++i) {
@@ -253,4 +253,4 @@ TEST(DriveLog, TimesOfPointsReferToTheStampAcrossTimeZones) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -11,7 +11,7 @@
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ TEST(ExamineDataset, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::io

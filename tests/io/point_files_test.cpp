@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include "io/io_fixtures.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,11 +58,11 @@ TEST(PointFiles, PlyInPartsIsThePlyOfTheWhole) {
     }
   };
   write_ply_in_parts(folder / "parts.ply", 500, add_in_parts);
-  EXPECT_EQ(read_file(folder / "parts.ply"), read_file(folder / "whole.ply"));
+  EXPECT_EQ(storage::read_file(folder / "parts.ply"), storage::read_file(folder / "whole.ply"));
   EXPECT_THROW(write_ply_in_parts(folder / "wrong.ply", 499, add_in_parts), std::logic_error);
   EXPECT_FALSE(fs::exists(folder / "wrong.ply"));
   write_ply_in_parts(folder / "none.ply", 0, [](const PlyPart&) {});
-  EXPECT_THAT(read_file(folder / "none.ply"), HasSubstr("element vertex 0\n"));
+  EXPECT_THAT(storage::read_file(folder / "none.ply"), HasSubstr("element vertex 0\n"));
 }
 
 TEST(PointFiles, BinKeepsPointsAndIntensity) {
@@ -154,8 +154,8 @@ TEST(PointFiles, DamageNamesTheFileThePlaceAndTheProblem) {
   const TemporaryFolder folder;
   write_pcd(folder / "whole.pcd", random_cloud(100));
   write_ply(folder / "whole.ply", random_cloud(100));
-  const std::string pcd = read_file(folder / "whole.pcd");
-  const std::string ply = read_file(folder / "whole.ply");
+  const std::string pcd = storage::read_file(folder / "whole.pcd");
+  const std::string ply = storage::read_file(folder / "whole.ply");
   folder.write("empty.bin", "");
   folder.write("cut.bin", std::string(100, 'x'));
   folder.write("cut.pcd", pcd.substr(0, pcd.size() - 5));
@@ -180,7 +180,7 @@ TEST(PointFiles, DamageNamesTheFileThePlaceAndTheProblem) {
 TEST(PointFiles, TruncatedAnywhereIsNeverACrash) {
   const TemporaryFolder folder;
   write_pcd(folder / "whole.pcd", random_cloud(60));
-  const std::string bytes = read_file(folder / "whole.pcd");
+  const std::string bytes = storage::read_file(folder / "whole.pcd");
   for (std::size_t size = 1; size < bytes.size(); size += 7) {
     folder.write("cut.pcd", bytes.substr(0, size));
     EXPECT_THROW(read_point_file(folder / "cut.pcd"), DamagedScan) << size;
@@ -201,4 +201,4 @@ TEST(PointFiles, ReadsCompressedPcdOfARealSensor) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -7,7 +7,7 @@
 #include "io/io_fixtures.hpp"
 #include "loopmark/core/error.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 using ::testing::HasSubstr;
@@ -78,4 +78,4 @@ TEST(Trajectory, WrongLinesAreNamed) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -12,7 +12,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::matching {
 namespace {
 
 struct World {
@@ -164,4 +164,4 @@ TEST(Filters, MutualAndRatioFollowTheirDefinition) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::matching

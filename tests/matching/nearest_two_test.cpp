@@ -11,18 +11,18 @@
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::matching {
 namespace {
 
 /// Rows near a few centres: many near-equal neighbours, as histograms of flat ground are.
-DescriptorMatrix clustered(Eigen::Index rows, Eigen::Index columns, double spread, std::uint64_t seed) {
+search::DescriptorMatrix clustered(Eigen::Index rows, Eigen::Index columns, double spread, std::uint64_t seed) {
   Rng centres_rng(99);
-  DescriptorMatrix centres(6, columns);
+  search::DescriptorMatrix centres(6, columns);
   for (Eigen::Index k = 0; k < centres.size(); ++k) {
     centres.data()[k] = static_cast<float>(centres_rng.uniform(0.0, 100.0));
   }
   Rng rng(seed);
-  DescriptorMatrix m(rows, columns);
+  search::DescriptorMatrix m(rows, columns);
   for (Eigen::Index r = 0; r < rows; ++r) {
     const auto centre = static_cast<Eigen::Index>(rng.below(6));
     for (Eigen::Index c = 0; c < columns; ++c) {
@@ -32,11 +32,12 @@ DescriptorMatrix clustered(Eigen::Index rows, Eigen::Index columns, double sprea
   return m;
 }
 
-double squared(const DescriptorMatrix& a, Eigen::Index i, const DescriptorMatrix& b, std::uint32_t j) {
+double squared(const search::DescriptorMatrix& a, Eigen::Index i, const search::DescriptorMatrix& b, std::uint32_t j) {
   return (a.row(i).cast<double>() - b.row(static_cast<Eigen::Index>(j)).cast<double>()).squaredNorm();
 }
 
-void expect_nearest(const DescriptorMatrix& queries, const DescriptorMatrix& in, const std::vector<NearestTwo>& found) {
+void expect_nearest(const search::DescriptorMatrix& queries, const search::DescriptorMatrix& in,
+                    const std::vector<NearestTwo>& found) {
   ASSERT_EQ(found.size(), static_cast<std::size_t>(queries.rows()));
   for (Eigen::Index i = 0; i < queries.rows(); ++i) {
     double first = std::numeric_limits<double>::infinity();
@@ -63,8 +64,8 @@ class NearestTwoOf : public testing::TestWithParam<std::pair<int, double>> {};
 
 TEST_P(NearestTwoOf, IsTheBruteForceAnswer) {
   const auto [columns, spread] = GetParam();
-  const DescriptorMatrix source = clustered(700, columns, spread, 1);
-  const DescriptorMatrix target = clustered(1000, columns, spread, 2);
+  const search::DescriptorMatrix source = clustered(700, columns, spread, 1);
+  const search::DescriptorMatrix target = clustered(1000, columns, spread, 2);
   const TwoWayNearest found = nearest_two(source, target);
   expect_nearest(source, target, found.forward);
   expect_nearest(target, source, found.backward);
@@ -75,9 +76,9 @@ INSTANTIATE_TEST_SUITE_P(Sizes, NearestTwoOf,
                                          std::pair{32, 5.0}, std::pair{3, 5.0}, std::pair{64, 1.0}));
 
 TEST(NearestTwo, EqualRowsGoToTheLowest) {
-  DescriptorMatrix target(200, 4);
+  search::DescriptorMatrix target(200, 4);
   target.setConstant(2.0F);
-  DescriptorMatrix source(1, 4);
+  search::DescriptorMatrix source(1, 4);
   source << 1, 2, 3, 4;
   const TwoWayNearest found = nearest_two(source, target);
   EXPECT_EQ(found.forward[0].first, 0U);
@@ -87,7 +88,7 @@ TEST(NearestTwo, EqualRowsGoToTheLowest) {
 }
 
 /// By sums of squared float differences, which are exact for whole numbers; the lower row wins.
-NearestTwo brute_force(const DescriptorMatrix& queries, Eigen::Index i, const DescriptorMatrix& in) {
+NearestTwo brute_force(const search::DescriptorMatrix& queries, Eigen::Index i, const search::DescriptorMatrix& in) {
   NearestTwo best;
   for (Eigen::Index j = 0; j < in.rows(); ++j) {
     const float d = (queries.row(i) - in.row(j)).squaredNorm();
@@ -107,14 +108,14 @@ NearestTwo brute_force(const DescriptorMatrix& queries, Eigen::Index i, const De
 TEST(NearestTwo, ManyEqualDistancesAndALongRow) {
   Rng rng(11);
   const auto whole = [&](Eigen::Index rows) {
-    DescriptorMatrix m(rows, 5);
+    search::DescriptorMatrix m(rows, 5);
     for (Eigen::Index k = 0; k < m.size(); ++k) {
       m.data()[k] = 1.0F + static_cast<float>(rng.below(3));
     }
     return m;
   };
-  DescriptorMatrix source = whole(500);
-  const DescriptorMatrix target = whole(400);
+  search::DescriptorMatrix source = whole(500);
+  const search::DescriptorMatrix target = whole(400);
   source.row(77).setConstant(900.0F);  // all others are one step long beside it
   const TwoWayNearest found = nearest_two(source, target);
   const auto expect_same = [](const NearestTwo& a, const NearestTwo& b) {
@@ -132,15 +133,15 @@ TEST(NearestTwo, ManyEqualDistancesAndALongRow) {
 }
 
 TEST(NearestTwo, OnlyBrokenRowsOnOneSide) {
-  const DescriptorMatrix zeros = DescriptorMatrix::Zero(20, 33);
+  const search::DescriptorMatrix zeros = search::DescriptorMatrix::Zero(20, 33);
   const TwoWayNearest found = nearest_two(zeros, clustered(30, 33, 1.0, 3));
   EXPECT_EQ(found.forward[0].first, kNoNeighbour);
   EXPECT_EQ(found.backward[0].first, kNoNeighbour);
 }
 
 TEST(NearestTwo, ZeroAndBrokenRowsHaveNoPart) {
-  DescriptorMatrix source = clustered(50, 33, 1.0, 3);
-  DescriptorMatrix target = clustered(60, 33, 1.0, 4);
+  search::DescriptorMatrix source = clustered(50, 33, 1.0, 3);
+  search::DescriptorMatrix target = clustered(60, 33, 1.0, 4);
   source.row(5).setZero();
   target.row(7).setZero();
   target(8, 3) = std::numeric_limits<float>::quiet_NaN();
@@ -154,8 +155,8 @@ TEST(NearestTwo, ZeroAndBrokenRowsHaveNoPart) {
 }
 
 TEST(NearestTwo, SameAnswerAtAnyNumberOfThreads) {
-  const DescriptorMatrix source = clustered(900, 33, 3.0, 5);
-  const DescriptorMatrix target = clustered(900, 33, 3.0, 6);
+  const search::DescriptorMatrix source = clustered(900, 33, 3.0, 5);
+  const search::DescriptorMatrix target = clustered(900, 33, 3.0, 6);
   set_thread_count(1);
   const TwoWayNearest one = nearest_two(source, target);
   set_thread_count(4);
@@ -168,9 +169,9 @@ TEST(NearestTwo, SameAnswerAtAnyNumberOfThreads) {
 }
 
 TEST(NearestTwo, TakesEmptyAndRefusesUnequal) {
-  EXPECT_EQ(nearest_two(DescriptorMatrix(0, 33), clustered(5, 33, 1, 7)).backward[0].first, kNoNeighbour);
+  EXPECT_EQ(nearest_two(search::DescriptorMatrix(0, 33), clustered(5, 33, 1, 7)).backward[0].first, kNoNeighbour);
   EXPECT_THROW(nearest_two(clustered(5, 32, 1, 7), clustered(5, 33, 1, 7)), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::matching

@@ -13,7 +13,7 @@
 #include "io/io_fixtures.hpp"
 #include "loopmark/core/pose.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 namespace {
 
 using testing::random_cloud;
@@ -92,4 +92,4 @@ TEST(Conversions, SensoryFramesGiveTheScanOfTheLabel) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

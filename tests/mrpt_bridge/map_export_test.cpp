@@ -11,7 +11,7 @@
 #include "io/io_fixtures.hpp"
 #include "loopmark/core/error.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,4 +79,4 @@ TEST(MapExport, AFailingKeyframeLeavesNoFile) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

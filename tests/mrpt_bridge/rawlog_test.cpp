@@ -8,10 +8,10 @@
 
 #include "io/io_fixtures.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/parallel.hpp"
+#include "loopmark/storage/files.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,7 +54,7 @@ TEST(Rawlog, OnlyTheSensorAskedFor) {
 TEST(Rawlog, DamageIsSaidAndWhatCameBeforeIsKept) {
   const TemporaryFolder folder;
   write_log(folder / "whole.rawlog", 30);
-  const std::string bytes = read_file(folder / "whole.rawlog");
+  const std::string bytes = storage::read_file(folder / "whole.rawlog");
   folder.write("cut.rawlog", bytes.substr(0, bytes.size() / 2));
   folder.write("garbage.rawlog", "this is no rawlog at all");
   folder.write("empty.rawlog", "");
@@ -114,4 +114,4 @@ TEST(Rawlog, ReadsRealVelodynePackets) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

@@ -9,11 +9,11 @@
 #include <sstream>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/parallel.hpp"
+#include "loopmark/storage/files.hpp"
 #include "street.hpp"
 
-namespace loopmark {
+namespace loopmark::occupancy {
 namespace {
 
 using namespace testing;
@@ -60,9 +60,9 @@ TEST_F(OccupancyMap, IsByteForByteWhatOctomapWrites) {
       insert_with_octomap(oracle, scan, max_range);
     }
     const OccupancyStatistics statistics = build(scans, options);
-    EXPECT_EQ(read_file(ot_), full_bytes(oracle));
+    EXPECT_EQ(storage::read_file(ot_), full_bytes(oracle));
     EXPECT_EQ(statistics.nodes, oracle.size());
-    EXPECT_EQ(read_file(bt_), binary_bytes(oracle));
+    EXPECT_EQ(storage::read_file(bt_), binary_bytes(oracle));
   }
 }
 
@@ -101,15 +101,15 @@ TEST_F(OccupancyMap, IsTheSameWithLittleMemoryAndAnyNumberOfThreads) {
   const std::vector<StreetScan> scans = street(12, 2000);
   set_thread_count(1);
   EXPECT_EQ(build(scans).spilled_tiles, 0U);
-  const std::string full = read_file(ot_);
-  const std::string binary = read_file(bt_);
+  const std::string full = storage::read_file(ot_);
+  const std::string binary = storage::read_file(bt_);
   OccupancyOptions tight;
   tight.memory_mb = 1;
   set_thread_count(2);
   EXPECT_GT(build(scans, tight).spilled_tiles, 10U);
   set_thread_count(0);
-  EXPECT_EQ(read_file(ot_), full);
-  EXPECT_EQ(read_file(bt_), binary);
+  EXPECT_EQ(storage::read_file(ot_), full);
+  EXPECT_EQ(storage::read_file(bt_), binary);
 }
 
 TEST_F(OccupancyMap, LeavesNothingBehindButItsFiles) {
@@ -124,8 +124,8 @@ TEST_F(OccupancyMap, LeavesNothingBehindButItsFiles) {
 TEST_F(OccupancyMap, OfNothingIsAnEmptyTree) {
   EXPECT_EQ(build({}).nodes, 0U);
   octomap::OcTree oracle(0.2);
-  EXPECT_EQ(read_file(ot_), full_bytes(oracle));
-  EXPECT_EQ(read_file(bt_), binary_bytes(oracle));
+  EXPECT_EQ(storage::read_file(ot_), full_bytes(oracle));
+  EXPECT_EQ(storage::read_file(bt_), binary_bytes(oracle));
 }
 
 TEST_F(OccupancyMap, SkipsAndCountsPointsThatMakeNoSense) {
@@ -151,4 +151,4 @@ TEST_F(OccupancyMap, NamesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::occupancy

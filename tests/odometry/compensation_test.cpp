@@ -6,7 +6,7 @@
 
 #include "support/box_world.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 enum class Sweep { kCompensated, kClockwise, kCounterClockwise };
@@ -81,4 +81,4 @@ TEST(Compensation, AStandingSensorTellsNothing) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -6,7 +6,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 std::vector<Eigen::Vector3d> random_points(std::size_t count, double span, std::uint64_t seed) {
@@ -85,4 +85,4 @@ TEST(LocalMap, FarFromTheOriginIsAsExactAsNear) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::odometry

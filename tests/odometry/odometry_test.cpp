@@ -8,7 +8,7 @@
 #include "loopmark/core/parallel.hpp"
 #include "support/box_world.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 using testing_support::BoxWorld;
@@ -29,7 +29,8 @@ PoseError error_after(const Drive& drive, const std::vector<double>& times, Comp
   Pose last;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const TrackedScan tracked = odometry.track(drive.scan(i, times[i]));
-    EXPECT_NE(tracked.health.tracking, Tracking::kLost) << "scan " << i << ": " << tracked.health.reason;
+    EXPECT_NE(tracked.tracking_status.tracking, Tracking::kLost)
+        << "scan " << i << ": " << tracked.tracking_status.reason;
     odometry.commit(tracked);
     last = tracked.T_map_lidar;
   }
@@ -148,10 +149,10 @@ TEST(Odometry, SaysThatItIsLostInAnotherPlace) {
   Drive elsewhere;
   elsewhere.world = testing_support::street(120.0, 77);
   const TrackedScan tracked = odometry.track(elsewhere.scan(6, 6.6));
-  EXPECT_EQ(tracked.health.tracking, Tracking::kLost);
-  EXPECT_FALSE(tracked.health.reason.empty());
+  EXPECT_EQ(tracked.tracking_status.tracking, Tracking::kLost);
+  EXPECT_FALSE(tracked.tracking_status.reason.empty());
   odometry.restart();
-  EXPECT_EQ(odometry.track(elsewhere.scan(6, 6.6)).health.tracking, Tracking::kGood);
+  EXPECT_EQ(odometry.track(elsewhere.scan(6, 6.6)).tracking_status.tracking, Tracking::kGood);
 }
 
 TEST(Odometry, WidensAlongACorridorWithoutFeatures) {
@@ -165,9 +166,9 @@ TEST(Odometry, WidensAlongACorridorWithoutFeatures) {
         {i, 0.1 * static_cast<double>(i), testing_support::sweep(corridor, pose, Vector6d::Zero(), 0.02, i)});
     odometry.commit(tracked);
   }
-  ASSERT_EQ(tracked.health.degenerate_directions.size(), 1U);
-  EXPECT_GT(std::abs(tracked.health.degenerate_directions[0].x()), 0.98);
-  EXPECT_GT(tracked.health.covariance(0, 0), 25.0 * tracked.health.covariance(1, 1));
+  ASSERT_EQ(tracked.tracking_status.degenerate_directions.size(), 1U);
+  EXPECT_GT(std::abs(tracked.tracking_status.degenerate_directions[0].x()), 0.98);
+  EXPECT_GT(tracked.tracking_status.covariance(0, 0), 25.0 * tracked.tracking_status.covariance(1, 1));
 }
 
 TEST(Odometry, TheSameBytesAtAnyNumberOfThreads) {
@@ -215,10 +216,10 @@ TEST(Odometry, EmptyAndDamagedCloudsAreLostNotFatal) {
   Odometry odometry({}, Compensation::kCompensated);
   const Drive drive;
   odometry.commit(odometry.track(drive.scan(0, 0.0)));
-  EXPECT_EQ(odometry.track({1, 0.1, {}}).health.tracking, Tracking::kLost);
+  EXPECT_EQ(odometry.track({1, 0.1, {}}).tracking_status.tracking, Tracking::kLost);
   PointCloud nonsense;
   nonsense.points.assign(100, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
-  EXPECT_EQ(odometry.track({1, 0.1, nonsense}).health.tracking, Tracking::kLost);
+  EXPECT_EQ(odometry.track({1, 0.1, nonsense}).tracking_status.tracking, Tracking::kLost);
 }
 
 TEST(Odometry, RefusesSenselessOptions) {
@@ -228,4 +229,4 @@ TEST(Odometry, RefusesSenselessOptions) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::odometry

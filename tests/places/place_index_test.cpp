@@ -5,20 +5,20 @@
 #include <gtest/gtest.h>
 
 #include "loopmark/core/parallel.hpp"
-#include "synthetic_signatures.hpp"
+#include "synthetic_descriptors.hpp"
 
-namespace loopmark {
+namespace loopmark::places {
 namespace {
 
 using namespace testing;
 
 TEST(PlaceIndex, FindsTheNearestOfAFewExactly) {
-  const std::vector<PlaceSignature> drive = drive_signatures(500, 1);
+  const std::vector<PlaceDescriptor> drive = drive_descriptors(500, 1);
   PlaceIndex index;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     index.add(1000 + i, drive[i]);
   }
-  const PlaceSignature query = seen_again(drive[123], 2);
+  const PlaceDescriptor query = seen_again(drive[123], 2);
   const std::vector<PlaceMatch> matches = index.query(query, 5);
   ASSERT_EQ(matches.size(), 5U);
   std::vector<std::pair<double, std::size_t>> all;
@@ -33,7 +33,7 @@ TEST(PlaceIndex, FindsTheNearestOfAFewExactly) {
 }
 
 TEST(PlaceIndex, LeavesOutWhatIsNotAccepted) {
-  const std::vector<PlaceSignature> drive = drive_signatures(100, 3);
+  const std::vector<PlaceDescriptor> drive = drive_descriptors(100, 3);
   PlaceIndex index;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     index.add(i, drive[i]);
@@ -47,7 +47,7 @@ TEST(PlaceIndex, LeavesOutWhatIsNotAccepted) {
 }
 
 TEST(PlaceIndex, OfManyPlacesAgreesWithComparingAll) {
-  const std::vector<PlaceSignature> drive = drive_signatures(20000, 4);
+  const std::vector<PlaceDescriptor> drive = drive_descriptors(20000, 4);
   PlaceIndex index;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     index.add(i, drive[i]);
@@ -55,7 +55,7 @@ TEST(PlaceIndex, OfManyPlacesAgreesWithComparingAll) {
   int found = 0;
   constexpr int kQueries = 200;
   for (int q = 0; q < kQueries; ++q) {
-    const PlaceSignature query =
+    const PlaceDescriptor query =
         seen_again(drive[static_cast<std::size_t>(97 * q)], 100 + static_cast<std::uint64_t>(q));
     found += index.query(query, 1)[0].id == index.query_exactly(query, 1)[0].id ? 1 : 0;
   }
@@ -63,7 +63,7 @@ TEST(PlaceIndex, OfManyPlacesAgreesWithComparingAll) {
 }
 
 TEST(PlaceIndex, AnswersTheSameAtAnyNumberOfThreads) {
-  const std::vector<PlaceSignature> drive = drive_signatures(6000, 5);
+  const std::vector<PlaceDescriptor> drive = drive_descriptors(6000, 5);
   const auto run = [&](std::size_t threads) {
     set_thread_count(threads);
     PlaceIndex index;
@@ -83,11 +83,11 @@ TEST(PlaceIndex, AnswersTheSameAtAnyNumberOfThreads) {
 
 TEST(PlaceIndex, KnowsNothingAtFirstAndRefusesOtherSizes) {
   PlaceIndex index;
-  EXPECT_TRUE(index.query(PlaceSignature{{1.0F, 0.0F}}, 3).empty());
-  index.add(0, PlaceSignature{{1.0F, 0.0F}});
-  EXPECT_THROW(index.add(1, PlaceSignature{{1.0F}}), std::invalid_argument);
-  EXPECT_THROW(index.query(PlaceSignature{{1.0F}}, 1), std::invalid_argument);
+  EXPECT_TRUE(index.query(PlaceDescriptor{{1.0F, 0.0F}}, 3).empty());
+  index.add(0, PlaceDescriptor{{1.0F, 0.0F}});
+  EXPECT_THROW(index.add(1, PlaceDescriptor{{1.0F}}), std::invalid_argument);
+  EXPECT_THROW(index.query(PlaceDescriptor{{1.0F}}, 1), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::places

@@ -17,7 +17,7 @@ struct Wall {
   float height;
 };
 
-/// A piece of town around the origin, 240 m wide.
+/// A segment of town around the origin, 240 m wide.
 struct Town {
   std::vector<Wall> walls;
 

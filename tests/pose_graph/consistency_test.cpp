@@ -22,9 +22,9 @@ TEST(CycleChi2, OfTrueLoopsFollowsItsDistribution) {
     Drive drive = circuit(2, 200.0, rng);
     add_loop(drive, 10, 112, rng);
     add_loop(drive, 140, 38, rng);  // turned round: must not matter
-    const Pieces pieces = find_pieces(drive.graph);
+    const internal::Segments segments = internal::find_segments(drive.graph);
     const std::size_t first = drive.graph.edges.size() - 2;
-    sum += cycle_chi2(drive.graph, pieces, first, first + 1);
+    sum += internal::cycle_chi2(drive.graph, segments, first, first + 1);
     ++count;
   }
   // Mean 6, standard deviation of the mean sqrt(12 / 200) = 0.25.
@@ -36,12 +36,12 @@ TEST(CycleChi2, OfAWrongLoopIsLarge) {
   Drive drive = circuit(2, 200.0, rng);
   add_loop(drive, 10, 112, rng);
   add_wrong_loop(drive, rng);
-  const Pieces pieces = find_pieces(drive.graph);
+  const internal::Segments segments = internal::find_segments(drive.graph);
   const std::size_t first = drive.graph.edges.size() - 2;
-  EXPECT_GT(cycle_chi2(drive.graph, pieces, first, first + 1), 100.0);
+  EXPECT_GT(internal::cycle_chi2(drive.graph, segments, first, first + 1), 100.0);
 }
 
-TEST(CycleChi2, WorksAcrossPiecesInDifferentFrames) {
+TEST(CycleChi2, WorksAcrossSegmentsInDifferentFrames) {
   Rng rng(2);
   Drive drive = circuit(2, 200.0, rng);
   drive.graph.edges.erase(drive.graph.edges.begin() + 99);
@@ -51,14 +51,14 @@ TEST(CycleChi2, WorksAcrossPiecesInDifferentFrames) {
   }
   add_loop(drive, 10, 112, rng);
   add_loop(drive, 160, 61, rng);
-  const Pieces pieces = find_pieces(drive.graph);
-  ASSERT_EQ(pieces.nodes.size(), 2U);
+  const internal::Segments segments = internal::find_segments(drive.graph);
+  ASSERT_EQ(segments.nodes.size(), 2U);
   const std::size_t first = drive.graph.edges.size() - 2;
-  EXPECT_LT(cycle_chi2(drive.graph, pieces, first, first + 1), 30.0);
+  EXPECT_LT(internal::cycle_chi2(drive.graph, segments, first, first + 1), 30.0);
 }
 
 /// The size of the largest clique, by trying every subset.
-std::size_t brute_force(const BitMatrix& related) {
+std::size_t brute_force(const internal::BitMatrix& related) {
   std::size_t best = 0;
   for (std::uint32_t subset = 0; subset < (1U << related.size()); ++subset) {
     bool clique = true;
@@ -76,7 +76,7 @@ TEST(LargeClique, IsACliqueAndNearlyAlwaysTheLargest) {
   int largest = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Rng rng(seed);
-    BitMatrix related(14);
+    internal::BitMatrix related(14);
     for (std::size_t i = 0; i < 14; ++i) {
       for (std::size_t j = i + 1; j < 14; ++j) {
         if (rng.uniform() < 0.6) {
@@ -85,7 +85,7 @@ TEST(LargeClique, IsACliqueAndNearlyAlwaysTheLargest) {
         }
       }
     }
-    const std::vector<std::size_t> clique = large_clique(related);
+    const std::vector<std::size_t> clique = internal::large_clique(related);
     for (const std::size_t a : clique) {
       for (const std::size_t b : clique) {
         EXPECT_TRUE(a == b || related.test(a, b));

@@ -9,7 +9,7 @@
 #include "drives.hpp"
 #include "loopmark/core/error.hpp"
 
-namespace loopmark {
+namespace loopmark::pose_graph {
 namespace {
 
 using namespace testing;
@@ -40,7 +40,7 @@ TEST(MarginalCovariances, OfALoopedGraphAreTheBlocksOfTheDenseInverse) {
   fixed[0] = true;
   std::vector<std::size_t> place_of;
   const std::vector<double> weights(drive.graph.edges.size(), 1.0);
-  const Eigen::MatrixXd normal = pose_graph::normal_matrix(drive.graph, weights, solution.T_map_node, fixed, place_of);
+  const Eigen::MatrixXd normal = internal::normal_matrix(drive.graph, weights, solution.T_map_node, fixed, place_of);
   const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
   for (std::size_t node = 1; node < covariances.size(); ++node) {
     const auto at = static_cast<Eigen::Index>(6 * place_of[node]);
@@ -90,4 +90,4 @@ TEST(InformationFromCovariance, AddsTheFloorAndInverts) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph

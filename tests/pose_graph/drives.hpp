@@ -28,7 +28,7 @@ inline Matrix6d information(double sigma_m, double sigma_deg) {
 }
 
 struct Drive {
-  PoseGraph graph;
+  pose_graph::PoseGraph graph;
   std::vector<Pose> truth;
   double odometry_sigma_m = 0.02;
   double odometry_sigma_deg = 0.05;
@@ -52,8 +52,8 @@ inline Drive circuit(std::size_t laps, double length, Rng& rng) {
   for (std::size_t i = 1; i < drive.truth.size(); ++i) {
     const Pose step = exp_se3(noise(rng, drive.odometry_sigma_m, drive.odometry_sigma_deg)) *
                       drive.truth[i - 1].inverse() * drive.truth[i];
-    drive.graph.edges.push_back(
-        {i - 1, i, step, information(drive.odometry_sigma_m, drive.odometry_sigma_deg), EdgeKind::kOdometry});
+    drive.graph.edges.push_back({i - 1, i, step, information(drive.odometry_sigma_m, drive.odometry_sigma_deg),
+                                 pose_graph::EdgeKind::kOdometry});
     drive.graph.T_map_node.push_back(drive.graph.T_map_node.back() * step);
   }
   return drive;
@@ -62,7 +62,8 @@ inline Drive circuit(std::size_t laps, double length, Rng& rng) {
 inline void add_loop(Drive& drive, std::size_t from, std::size_t to, Rng& rng) {
   const Pose T =
       exp_se3(noise(rng, drive.loop_sigma_m, drive.loop_sigma_deg)) * drive.truth[from].inverse() * drive.truth[to];
-  drive.graph.edges.push_back({from, to, T, information(drive.loop_sigma_m, drive.loop_sigma_deg), EdgeKind::kLoop});
+  drive.graph.edges.push_back(
+      {from, to, T, information(drive.loop_sigma_m, drive.loop_sigma_deg), pose_graph::EdgeKind::kLoop});
 }
 
 /// A loop between random places that claims they are within a few metres: what aliasing produces.
@@ -72,7 +73,8 @@ inline void add_wrong_loop(Drive& drive, Rng& rng) {
   const std::size_t to = from + count / 4 + rng.below(count / 4);
   const Pose T =
       pose_from_yaw(rng.uniform(-0.2, 0.2), {rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-0.3, 0.3)});
-  drive.graph.edges.push_back({from, to, T, information(drive.loop_sigma_m, drive.loop_sigma_deg), EdgeKind::kLoop});
+  drive.graph.edges.push_back(
+      {from, to, T, information(drive.loop_sigma_m, drive.loop_sigma_deg), pose_graph::EdgeKind::kLoop});
 }
 
 /// `count` loops that are wrong in the same way, as between two blocks that look alike: all agree with one another that
@@ -84,7 +86,8 @@ inline void add_alike_wrong_loops(Drive& drive, std::size_t count, std::size_t s
     const std::size_t to = half + half / 5 + i * spacing;
     const Pose T = exp_se3(noise(rng, drive.loop_sigma_m, drive.loop_sigma_deg)) * drive.truth[from].inverse() * shift *
                    drive.truth[to];
-    drive.graph.edges.push_back({from, to, T, information(drive.loop_sigma_m, drive.loop_sigma_deg), EdgeKind::kLoop});
+    drive.graph.edges.push_back(
+        {from, to, T, information(drive.loop_sigma_m, drive.loop_sigma_deg), pose_graph::EdgeKind::kLoop});
   }
 }
 

@@ -35,7 +35,7 @@ TEST(LeftJacobianInverse, AgreesWithFiniteDifferences) {
     for (int i = 0; i < 10; ++i) {
       const Vector6d xi = random_tangent(rng, 5.0, radians);
       const Matrix6d numeric = differences([&](const Vector6d& d) { return log_se3(exp_se3(d) * exp_se3(xi)); });
-      EXPECT_LT((left_jacobian_inverse(xi) - numeric).norm(), 1e-6) << xi.transpose();
+      EXPECT_LT((internal::left_jacobian_inverse(xi) - numeric).norm(), 1e-6) << xi.transpose();
     }
   }
 }
@@ -46,9 +46,9 @@ TEST(EdgeJacobians, AgreeWithFiniteDifferences) {
     const Pose a = exp_se3(random_tangent(rng, 50.0, 1.5));
     const Pose z = exp_se3(random_tangent(rng, 10.0, 1.5));
     const Pose b = a * z * exp_se3(random_tangent(rng, 1.0, 0.5));
-    const EdgeJacobians j = edge_jacobians(edge_residual(a, b, z), z);
-    const Matrix6d from = differences([&](const Vector6d& d) { return edge_residual(a * exp_se3(d), b, z); });
-    const Matrix6d to = differences([&](const Vector6d& d) { return edge_residual(a, b * exp_se3(d), z); });
+    const internal::EdgeJacobians j = internal::edge_jacobians(internal::edge_residual(a, b, z), z);
+    const Matrix6d from = differences([&](const Vector6d& d) { return internal::edge_residual(a * exp_se3(d), b, z); });
+    const Matrix6d to = differences([&](const Vector6d& d) { return internal::edge_residual(a, b * exp_se3(d), z); });
     EXPECT_LT((j.from - from).norm(), 1e-5);
     EXPECT_LT((j.to - to).norm(), 1e-5);
   }
@@ -56,11 +56,11 @@ TEST(EdgeJacobians, AgreeWithFiniteDifferences) {
 
 TEST(PoseManifold, KeepsTheRulesOfAManifold) {
   Rng rng(3);
-  const PoseManifold manifold;
+  const internal::PoseManifold manifold;
   for (int i = 0; i < 20; ++i) {
-    const PoseParameters x = to_parameters(exp_se3(random_tangent(rng, 50.0, 1.5)));
+    const internal::PoseParameters x = internal::to_parameters(exp_se3(random_tangent(rng, 50.0, 1.5)));
     const Vector6d d = random_tangent(rng, 1.0, 0.7);
-    PoseParameters y{};
+    internal::PoseParameters y{};
     Vector6d back;
     manifold.Plus(x.data(), d.data(), y.data());
     manifold.Minus(y.data(), x.data(), back.data());
@@ -88,12 +88,12 @@ TEST(EdgeCost, WeighsTheResidualByTheRootOfTheInformation) {
   const PoseGraphEdge edge{0, 1, exp_se3(random_tangent(rng, 3.0, 1.0)), half * half.transpose(), EdgeKind::kLoop};
   const Pose a = exp_se3(random_tangent(rng, 3.0, 1.0));
   const Pose b = a * edge.T_from_to * exp_se3(random_tangent(rng, 0.3, 0.1));
-  const PoseParameters pa = to_parameters(a);
-  const PoseParameters pb = to_parameters(b);
+  const internal::PoseParameters pa = internal::to_parameters(a);
+  const internal::PoseParameters pb = internal::to_parameters(b);
   const double* blocks[] = {pa.data(), pb.data()};
   Vector6d weighted;
-  EdgeCost(edge, 0.25).Evaluate(blocks, weighted.data(), nullptr);
-  const Vector6d residual = edge_residual(a, b, edge.T_from_to);
+  internal::EdgeCost(edge, 0.25).Evaluate(blocks, weighted.data(), nullptr);
+  const Vector6d residual = internal::edge_residual(a, b, edge.T_from_to);
   EXPECT_NEAR(weighted.squaredNorm(), 0.25 * residual.dot(edge.information * residual), 1e-9);
 }
 

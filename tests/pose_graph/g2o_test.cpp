@@ -10,9 +10,9 @@
 
 #include "drives.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 
-namespace loopmark {
+namespace loopmark::pose_graph {
 namespace {
 
 using namespace testing;
@@ -24,7 +24,7 @@ class G2o : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   void expect_refused(const std::string& content, const std::string& problem) const {
-    write_file_atomically(file_, content);
+    storage::write_file_atomically(file_, content);
     try {
       read_g2o(file_);
       FAIL() << "accepted: " << content;
@@ -95,11 +95,11 @@ TEST_F(G2o, InformationIsThatOfTheErrorG2oUses) {
 }
 
 TEST_F(G2o, ReadsWhatOthersWrite) {
-  write_file_atomically(file_,
-                        "# a comment\nVERTEX_SE3:QUAT 10 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 12 2 0 0 0 0 0 1\n"
-                        "VERTEX_SE3:QUAT 11 1 0 0 0 0 0 1\n\nEDGE_SE3:QUAT 10 11 1 0 0 0 0 0 1 "
-                        "1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\nEDGE_SE3:QUAT 10 12 2 0 0 0 0 0 1 "
-                        "1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\n");
+  storage::write_file_atomically(file_,
+                                 "# a comment\nVERTEX_SE3:QUAT 10 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 12 2 0 0 0 0 0 1\n"
+                                 "VERTEX_SE3:QUAT 11 1 0 0 0 0 0 1\n\nEDGE_SE3:QUAT 10 11 1 0 0 0 0 0 1 "
+                                 "1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\nEDGE_SE3:QUAT 10 12 2 0 0 0 0 0 1 "
+                                 "1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\n");
   const PoseGraph graph = read_g2o(file_);
   ASSERT_EQ(graph.T_map_node.size(), 3U);
   EXPECT_EQ(graph.T_map_node[2].translation().x(), 2.0);
@@ -120,4 +120,4 @@ TEST_F(G2o, NamesTheLineThatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph

@@ -10,7 +10,7 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/parallel.hpp"
 
-namespace loopmark {
+namespace loopmark::pose_graph {
 namespace {
 
 using namespace testing;
@@ -129,8 +129,8 @@ TEST(Optimize, ConsistencyAloneLeavesOutWrongLoops) {
   EXPECT_EQ(solution.robust_steps, 0U);
 }
 
-/// Two pieces, true loops between them and fewer wrong ones that agree: the larger group places the second piece.
-TEST(Optimize, TheLargerAgreeingGroupPlacesAPiece) {
+/// Two segments, true loops between them and fewer wrong ones that agree: the larger group places the second segment.
+TEST(Optimize, TheLargerAgreeingGroupPlacesASegment) {
   Drive drive = two_laps(400.0, 10, 16);
   const double clean = ate(optimize(drive.graph).T_map_node, drive.truth);
   const std::size_t half = drive.truth.size() / 2;
@@ -190,7 +190,7 @@ void cut(Drive& drive, std::size_t node, const Pose& step) {
   }
 }
 
-TEST(Optimize, LoopsPlaceAPieceThatStartedElsewhere) {
+TEST(Optimize, LoopsPlaceASegmentThatStartedElsewhere) {
   Drive drive = two_laps(400.0, 10, 8);
   cut(drive, drive.truth.size() / 2, pose_from_yaw(2.0, {500, -300, 7}));
   const PoseGraphSolution solution = optimize(drive.graph);
@@ -198,7 +198,7 @@ TEST(Optimize, LoopsPlaceAPieceThatStartedElsewhere) {
   EXPECT_LT(ate(solution.T_map_node, drive.truth), 1.0);
 }
 
-TEST(Optimize, APieceWithoutEnoughAgreeingLinksStaysApart) {
+TEST(Optimize, ASegmentWithoutEnoughAgreeingLinksStaysApart) {
   Rng rng(9);
   Drive drive = circuit(2, 400.0, rng);
   const std::size_t half = drive.truth.size() / 2;
@@ -301,4 +301,4 @@ TEST(Optimize, NamesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph

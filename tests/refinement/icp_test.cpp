@@ -10,7 +10,7 @@
 #include "loopmark/core/parallel.hpp"
 #include "small_world.hpp"
 
-namespace loopmark {
+namespace loopmark::refinement {
 namespace {
 
 using testing_support::corridor;
@@ -23,7 +23,7 @@ struct Variant {
   const char* name;
   IcpMetric metric;
   IcpPairing pairing;
-  RobustKernel kernel;
+  least_squares::RobustKernel kernel;
   double accuracy_m;
 };
 
@@ -71,19 +71,26 @@ TEST_P(IcpVariants, MovesWithItsInputs) {
   EXPECT_LT(error.rotation_deg, 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, IcpVariants,
-    testing::Values(
-        Variant{"PointToPoint", IcpMetric::kPointToPoint, IcpPairing::kNearest, RobustKernel::kNone, 0.06},
-        Variant{"PointToPlane", IcpMetric::kPointToPlane, IcpPairing::kNearest, RobustKernel::kNone, 0.02},
-        Variant{"PointToPlaneTukey", IcpMetric::kPointToPlane, IcpPairing::kNearest, RobustKernel::kTukey, 0.01},
-        Variant{"Symmetric", IcpMetric::kSymmetric, IcpPairing::kNearest, RobustKernel::kNone, 0.02},
-        Variant{"SymmetricCauchy", IcpMetric::kSymmetric, IcpPairing::kNearest, RobustKernel::kCauchy, 0.02},
-        Variant{"Generalized", IcpMetric::kGeneralized, IcpPairing::kNearest, RobustKernel::kNone, 0.02},
-        Variant{"GeneralizedHuber", IcpMetric::kGeneralized, IcpPairing::kNearest, RobustKernel::kHuber, 0.02},
-        Variant{"BestBuddies", IcpMetric::kPointToPoint, IcpPairing::kBestBuddies, RobustKernel::kNone, 0.06},
-        Variant{"BestBuddiesPlane", IcpMetric::kPointToPlane, IcpPairing::kBestBuddies, RobustKernel::kNone, 0.02}),
-    [](const auto& variant) { return variant.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, IcpVariants,
+                         testing::Values(Variant{"PointToPoint", IcpMetric::kPointToPoint, IcpPairing::kNearest,
+                                                 least_squares::RobustKernel::kNone, 0.06},
+                                         Variant{"PointToPlane", IcpMetric::kPointToPlane, IcpPairing::kNearest,
+                                                 least_squares::RobustKernel::kNone, 0.02},
+                                         Variant{"PointToPlaneTukey", IcpMetric::kPointToPlane, IcpPairing::kNearest,
+                                                 least_squares::RobustKernel::kTukey, 0.01},
+                                         Variant{"Symmetric", IcpMetric::kSymmetric, IcpPairing::kNearest,
+                                                 least_squares::RobustKernel::kNone, 0.02},
+                                         Variant{"SymmetricCauchy", IcpMetric::kSymmetric, IcpPairing::kNearest,
+                                                 least_squares::RobustKernel::kCauchy, 0.02},
+                                         Variant{"Generalized", IcpMetric::kGeneralized, IcpPairing::kNearest,
+                                                 least_squares::RobustKernel::kNone, 0.02},
+                                         Variant{"GeneralizedHuber", IcpMetric::kGeneralized, IcpPairing::kNearest,
+                                                 least_squares::RobustKernel::kHuber, 0.02},
+                                         Variant{"BestBuddies", IcpMetric::kPointToPoint, IcpPairing::kBestBuddies,
+                                                 least_squares::RobustKernel::kNone, 0.06},
+                                         Variant{"BestBuddiesPlane", IcpMetric::kPointToPlane, IcpPairing::kBestBuddies,
+                                                 least_squares::RobustKernel::kNone, 0.02}),
+                         [](const auto& variant) { return variant.param.name; });
 
 TEST(Icp, IdenticalCloudsEndExactly) {
   const Surface yard_sample = sample(yard(), 3000, 0.0, 7);
@@ -173,4 +180,4 @@ TEST(Icp, SameBytesAtAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::refinement

@@ -30,7 +30,8 @@ inline std::vector<Patch> corridor() {
 }
 
 /// `count` points spread over the patches by area, `sigma` metres of noise along the normals.
-inline Surface sample(const std::vector<Patch>& patches, std::size_t count, double sigma, std::uint64_t seed) {
+inline refinement::Surface sample(const std::vector<Patch>& patches, std::size_t count, double sigma,
+                                  std::uint64_t seed) {
   std::vector<double> until;
   double area = 0.0;
   for (const Patch& patch : patches) {
@@ -38,7 +39,7 @@ inline Surface sample(const std::vector<Patch>& patches, std::size_t count, doub
     until.push_back(area);
   }
   Rng rng(seed);
-  Surface surface;
+  refinement::Surface surface;
   for (std::size_t i = 0; i < count; ++i) {
     const double pick = rng.uniform() * area;
     std::size_t k = 0;
@@ -55,8 +56,8 @@ inline Surface sample(const std::vector<Patch>& patches, std::size_t count, doub
   return surface;
 }
 
-inline Surface moved(const Surface& surface, const Pose& T) {
-  Surface out = surface;
+inline refinement::Surface moved(const refinement::Surface& surface, const Pose& T) {
+  refinement::Surface out = surface;
   for (std::size_t i = 0; i < out.points.size(); ++i) {
     out.points[i] = (T * surface.points[i].cast<double>()).cast<float>();
     out.normals[i] = (T.linear() * surface.normals[i].cast<double>()).cast<float>();

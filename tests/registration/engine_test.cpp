@@ -11,7 +11,7 @@
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::registration {
 namespace {
 
 /// A small street: a plane, house fronts with gaps, and poles, seen from `sensor` at 1.8 m with simple occlusion.
@@ -188,4 +188,4 @@ TEST_F(Engine, VerifyTellsRightFromWrong) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::registration

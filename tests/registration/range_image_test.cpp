@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopmark {
+namespace loopmark::registration {
 namespace {
 
 Eigen::Vector3f towards(double azimuth_deg, double elevation_deg, double range) {
@@ -33,14 +33,14 @@ TEST(RangeImage, TellsWhatABeamSaysOfAPoint) {
   EXPECT_EQ(image.look_at(towards(5.5, 2.5, 20.1), 0.5F), Sight::kAgrees);
   EXPECT_EQ(image.look_at(towards(5.5, 2.5, 25.0), 0.5F), Sight::kHidden);
   EXPECT_EQ(image.look_at(towards(90.0, 2.5, 10.0), 0.5F), Sight::kUnknown);
-  EXPECT_EQ(image.look_at(towards(5.5, 2.5, 10.0), 0.5F), Sight::kClash);
+  EXPECT_EQ(image.look_at(towards(5.5, 2.5, 10.0), 0.5F), Sight::kStrongViolation);
 }
 
 TEST(RangeImage, BesideAnEdgeAConflictIsNoClash) {
   const RangeImage image = wall(true);
-  EXPECT_EQ(image.look_at(towards(1.5, 2.5, 10.0), 0.5F), RangeImage::Sight::kConflict);
-  EXPECT_EQ(image.look_at(towards(2.5, 2.5, 10.0), 0.5F), RangeImage::Sight::kClash);
+  EXPECT_EQ(image.look_at(towards(1.5, 2.5, 10.0), 0.5F), RangeImage::Sight::kFreeSpaceViolation);
+  EXPECT_EQ(image.look_at(towards(2.5, 2.5, 10.0), 0.5F), RangeImage::Sight::kStrongViolation);
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::registration

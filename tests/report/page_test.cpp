@@ -8,8 +8,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/random.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::report {
 namespace {
@@ -117,7 +117,7 @@ TEST(Page, SameContentGivesTheSameBytes) {
   const std::string html = sample_page().html();
   EXPECT_EQ(html, sample_page().html());
   // Left behind to be looked at.
-  write_file_atomically(std::filesystem::path(testing::TempDir()) / "loopmark_sample_page.html", html);
+  storage::write_file_atomically(std::filesystem::path(testing::TempDir()) / "loopmark_sample_page.html", html);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::report {
 namespace {
@@ -46,7 +46,7 @@ TEST(Png, WritingWhereThereIsNoFolderNamesTheFile) {
   EXPECT_THROW(write_png("/nowhere/at/all.png", Image(2, 2)), InputError);
   const std::string path = testing::TempDir() + "loopmark_picture_test.png";
   write_png(path, patterned(3, 3));
-  EXPECT_EQ(decoded(read_file(path)).pixels, patterned(3, 3).pixels);
+  EXPECT_EQ(decoded(storage::read_file(path)).pixels, patterned(3, 3).pixels);
 }
 
 TEST(Clouds, PointsStandWhereTheyAre) {

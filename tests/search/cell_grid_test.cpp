@@ -10,7 +10,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::search {
 namespace {
 
 std::vector<Eigen::Vector3f> random_points(std::size_t count, double half, std::uint64_t seed) {
@@ -101,4 +101,4 @@ TEST(CellGrid, RefusesACellThatCannotHoldThePoints) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::search

@@ -8,7 +8,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark {
+namespace loopmark::search {
 namespace {
 
 std::vector<Eigen::Vector3f> random_points(std::size_t count, std::uint64_t seed) {
@@ -49,4 +49,4 @@ TEST(KdTree, NothingNearGivesNothing) {
 }
 
 }  // namespace
-}  // namespace loopmark
+}  // namespace loopmark::search

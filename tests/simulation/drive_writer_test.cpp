@@ -8,9 +8,9 @@
 #include <map>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/io/drive_log.hpp"
+#include "loopmark/storage/files.hpp"
 #include "small_town.hpp"
 
 namespace loopmark::simulation {
@@ -40,7 +40,7 @@ class DriveWriter : public testing::Test {
     std::map<std::string, std::string> result;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.is_regular_file()) {
-        result[fs::relative(entry.path(), folder)] = sha256_of_file(entry.path());
+        result[fs::relative(entry.path(), folder)] = storage::sha256_of_file(entry.path());
       }
     }
     return result;
@@ -66,7 +66,7 @@ TEST_F(DriveWriter, LogsAreReadBackWithTheirTruth) {
   for (const LogFormat format : {LogFormat::kKitti, LogFormat::kPcd}) {
     const fs::path log_folder = folder_ / (format == LogFormat::kKitti ? "kitti" : "pcd");
     write_drive(small_world(), small_town(), drive, log_folder, {format, false});
-    const auto log = open_log(log_folder);
+    const auto log = io::open_log(log_folder);
     ASSERT_EQ(log->size(), drive.size());
     ASSERT_EQ(log->truth().size(), drive.size());
     EXPECT_NEAR(log->stamp_s(3), drive.stamp_s(3), 1e-6);
@@ -86,7 +86,7 @@ TEST_F(DriveWriter, LogsAreReadBackWithTheirTruth) {
 TEST_F(DriveWriter, RawlogsHoldTimesAndTruth) {
   const Drive drive = short_drive();
   write_drive(small_world(), small_town(), drive, folder_ / "mrpt", {LogFormat::kRawlog, false});
-  const auto log = open_log(folder_ / "mrpt" / "drive.rawlog");
+  const auto log = io::open_log(folder_ / "mrpt" / "drive.rawlog");
   ASSERT_EQ(log->size(), drive.size());
   ASSERT_EQ(log->truth().size(), drive.size());
   const Scan read = log->read(4);
@@ -105,7 +105,7 @@ TEST_F(DriveWriter, NeverWritesIntoAFolderThatExists) {
 }
 
 TEST_F(DriveWriter, SaysWhenTheFolderCannotBeMade) {
-  write_file_atomically(folder_ / "file", "x");
+  storage::write_file_atomically(folder_ / "file", "x");
   EXPECT_THROW(write_drive(small_world(), small_town(), short_drive(), folder_ / "file" / "log", {}), InputError);
 }
 

@@ -36,7 +36,7 @@ TEST(PairSampler, SpreadsTheOverlapAndTellsTheTruth) {
     const Pose truth = sample.T_town_lidar[pair.target].inverse() * sample.T_town_lidar[pair.source];
     EXPECT_LT(pose_error(pair.T_target_source, truth).translation_m, 1e-9);
     EXPECT_LE(pair.T_target_source.translation().norm(), 100.0);
-    const Overlap shared = overlap(scans[pair.source], scans[pair.target], pair.T_target_source);
+    const cloud::Overlap shared = cloud::overlap(scans[pair.source], scans[pair.target], pair.T_target_source);
     EXPECT_DOUBLE_EQ(shared.symmetric, pair.overlap_symmetric);
     ++bins.at(static_cast<std::size_t>((pair.overlap_symmetric - 0.2) / 0.1));
   }
@@ -45,7 +45,7 @@ TEST(PairSampler, SpreadsTheOverlapAndTellsTheTruth) {
   }
   for (const auto& [a, b] : sample.negatives) {
     const Pose truth = sample.T_town_lidar[b].inverse() * sample.T_town_lidar[a];
-    EXPECT_LE(overlap(scans[a], scans[b], truth).symmetric, 0.005);
+    EXPECT_LE(cloud::overlap(scans[a], scans[b], truth).symmetric, 0.005);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(PairSampler, BlocksOfTheTwoRowsLookAlike) {
                                        standing_pose(small_town().terrain, here, 0.0, sensor.height_m), 1);
   const PointCloud b = render_standing(small_world(), nullptr, sensor,
                                        standing_pose(small_town().terrain, there, half_turn, sensor.height_m), 2);
-  EXPECT_GT(overlap(a, b, Pose::Identity()).symmetric, 0.6);
+  EXPECT_GT(cloud::overlap(a, b, Pose::Identity()).symmetric, 0.6);
 }
 
 TEST(PairSampler, SenselessOptionsAreRefused) {

@@ -8,6 +8,9 @@ usage: check_structure.py SOURCE_DIR
 - A room includes only itself and rooms of lower floors; its CMake DEPS likewise.
 - Public headers include no foreign library but Eigen; mrpt_bridge may include MRPT in its own.
 - Private headers are included from their own room only.
+- A room's namespace is loopmark::<room> (core, the house's vocabulary: loopmark); private headers are in its ::internal.
+- No type and no function is defined twice in one namespace.
+- A room has at most 15 public headers.
 - Libraries do not print: no std::cout, std::cerr or printf to them.
 - The table in docs/architecture.md is that of cmake/layers.txt.
 - Links between the Markdown files lead to files that are there.
@@ -25,6 +28,13 @@ FOREIGN = re.compile(r"^(pcl|mrpt|ceres|embree3|octomap|yaml-cpp|tbb|oneapi|open
 ALLOWED_IN_PUBLIC = {"mrpt_bridge": re.compile(r"^mrpt/")}
 PRINTS = re.compile(r"std::(cout|cerr)\b|\bstd::puts\(|\bstd::printf\(|fprintf\(stdout")
 SPDX = ["// SPDX-FileCopyrightText: loopmark contributors", "// SPDX-License-Identifier: BSD-3-Clause"]
+
+
+MOST_PUBLIC_HEADERS = 15
+NAMESPACE = re.compile(r"^namespace (loopmark(?:::\w+)*) \{", re.M)
+CODE = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
+TYPE = re.compile(r"\b(?:class|struct|union|enum class|enum struct|enum)\s+(\w+)(?:\s+final)?(?:\s*:[^;{}()]*)?\s*$")
+FUNCTION = re.compile(r"(?:^|[\s&*>])([\w:~]+)\s*\((.*)\)\s*(?:const)?\s*(?:noexcept)?\s*$", re.S)
 
 
 def read_layers(path):
@@ -80,13 +90,94 @@ def check_room(room, folder, floors):
             yield folder / "CMakeLists.txt", 1, f"{room} depends on {other}, which is not on a lower floor"
     for path in sources(folder):
         public = "include" in path.relative_to(folder).parts
-        for number, line in enumerate(path.read_text().splitlines(), 1):
+        text = path.read_text()
+        for number, problem in check_namespaces(room, path, public, text):
+            yield path, number, problem
+        for number, line in enumerate(text.splitlines(), 1):
             match = INCLUDE.match(line)
             problem = check_include(room, public, match.group(2), floors) if match else None
             if problem:
                 yield path, number, problem
             if PRINTS.search(line.split("//")[0]):
                 yield path, number, "a library prints; report through core/progress.hpp"
+
+
+def check_namespaces(room, path, public, text):
+    """The namespaces that a file opens are those of its room."""
+    own = "loopmark" if room == "core" else f"loopmark::{room}"
+    opened = NAMESPACE.findall(text)
+    for name in opened:
+        if name != own and not name.startswith(own + "::"):
+            yield 1, f"opens namespace {name}; the room's is {own}"
+    members = re.search(r"^(?:struct|class) \w+::\w+ ", text, re.M)
+    if path.suffix == ".hpp" and not public and not members:
+        for name in opened:
+            if "internal" not in name.split("::"):
+                yield 1, f"a private header opens namespace {name}; private things are in {own}::internal"
+
+
+def definitions(text):
+    """(qualified name, line) of the types and functions that are defined in named namespaces below loopmark."""
+    text = CODE.sub(lambda m: "\n" * m.group(0).count("\n") + '""', text)
+    text = re.sub(r"^\s*#.*$", "", text, flags=re.M)
+    scopes, head_start, line = [], 0, 1
+    for at, char in enumerate(text):
+        line += char == "\n"
+        if char == "{":
+            head = text[head_start:at].strip()
+            spaces = [s for s in scopes if s is not None]
+            found = None
+            if all(s is not None for s in scopes) and "" not in spaces and spaces and spaces[0].startswith("loopmark"):
+                found = defined(head)
+            opened = re.match(r"(?:inline )?namespace\s*([\w:]*)$", head)
+            scopes.append(opened.group(1) if opened else None)
+            if found:
+                yield "::".join(spaces) + "::" + found, line
+            head_start = at + 1
+        elif char == "}":
+            if scopes:
+                scopes.pop()
+            head_start = at + 1
+        elif char == ";":
+            head_start = at + 1
+
+
+def defined(head):
+    """What a head before "{" defines at the level of a namespace: a type's name, a function's name with its parameters."""
+    if head.startswith(("template", "namespace")) or "=" in head.split("(")[0]:
+        return None
+    match = TYPE.search(head)
+    if match:
+        return match.group(1)
+    match = FUNCTION.search(head.split(") :")[0] + (")" if ") :" in head else ""))
+    if match and not head.startswith(("if", "for", "while", "switch")):
+        return match.group(1) + "(" + re.sub(r"\s+", " ", match.group(2)) + ")"
+    return None
+
+
+def check_defined_once(root):
+    """No name is defined in two files of one namespace."""
+    first = {}
+    for wing in ("libs", "apps"):
+        for path in sources(root / wing):
+            for name, line in definitions(path.read_text()):
+                if first.setdefault(name, path) != path:
+                    yield path, line, f"defines {name}, which {first[name].relative_to(root)} defines too"
+
+
+def check_sources(folder):
+    """A source has a header of its name."""
+    headers = {path.stem for path in folder.rglob("*.hpp")}
+    for path in sorted(folder.rglob("*.cpp")):
+        if path.stem not in headers:
+            yield path, 1, "has no header of its name"
+
+
+def check_public_headers(room, folder):
+    """Public headers are few."""
+    public = sorted((folder / "include").rglob("*.hpp")) if (folder / "include").exists() else []
+    if len(public) > MOST_PUBLIC_HEADERS:
+        yield folder / "CMakeLists.txt", 1, f"room {room} has {len(public)} public headers, more than {MOST_PUBLIC_HEADERS}"
 
 
 def check_guide(path, floors):
@@ -120,6 +211,8 @@ def check_tree(root):
         yield from check_links(path)
     for folder in sorted(p.parent for p in (root / "libs").glob("*/CMakeLists.txt")):
         yield from check_room(folder.name, folder, floors)
+        yield from check_public_headers(folder.name, folder)
+    yield from check_defined_once(root)
     for wing in ("apps", "libs", "tests", "benchmarks", "examples"):
         for path in sources(root / wing):
             for number, problem in check_file_form(path, path.read_text().splitlines()):

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace loopmark {
+namespace loopmark::cloud {
 namespace {
 
 constexpr std::size_t kSteps = 4096;
@@ -73,4 +73,4 @@ std::vector<Eigen::Vector3f> deskewed(const std::vector<Eigen::Vector3f>& points
   return result;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::cloud

@@ -7,7 +7,7 @@
 
 #include "loopmark/cloud/voxel.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 namespace {
 
 constexpr double kVoxel = 1.0;
@@ -21,7 +21,7 @@ Overlap ratios(std::size_t near, std::size_t source, std::size_t target) {
 }
 
 template <class Range, class Move>
-std::size_t count_near(const Range& source, const KdTree& target, const Move& move) {
+std::size_t count_near(const Range& source, const search::KdTree& target, const Move& move) {
   return static_cast<std::size_t>(std::count_if(source.begin(), source.end(), [&](const Eigen::Vector3f& point) {
     return target.nearest(move(point), kNear).has_value();
   }));
@@ -41,9 +41,9 @@ Overlap overlap(const OverlapCloud& source, const OverlapCloud& target, const Po
 
 Overlap overlap(const PointCloud& source, const PointCloud& target, const Pose& T_target_source) {
   const auto moved = voxel_centroids(transformed(source, T_target_source).points, kVoxel);
-  const KdTree tree(voxel_centroids(target.points, kVoxel));
+  const search::KdTree tree(voxel_centroids(target.points, kVoxel));
   const std::size_t near = count_near(moved, tree, [](const Eigen::Vector3f& p) { return p; });
   return ratios(near, moved.size(), tree.points().size());
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::cloud

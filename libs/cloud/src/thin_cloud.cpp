@@ -6,7 +6,7 @@
 
 #include "loopmark/core/error.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 namespace {
 
 constexpr int kTileBits = 7;  // 128 voxels
@@ -24,7 +24,7 @@ float inverse_of(double voxel_m) {
 ThinCloud::ThinCloud(double voxel_m) : inverse_(inverse_of(voxel_m)), table_(0) {}
 
 bool ThinCloud::add(const Eigen::Vector3f& point, float intensity) {
-  if (table_.insert(voxel_of(point, inverse_)) < points_.size()) {
+  if (table_.insert(search::voxel_of(point, inverse_)) < points_.size()) {
     return false;
   }
   points_.push_back(point);
@@ -63,7 +63,7 @@ void TiledCloud::add(const PointCloud& cloud) {
   ThinCloud* held = nullptr;
   Key held_at{};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Voxel voxel = voxel_of(cloud.points[i], inverse);
+    const search::Voxel voxel = search::voxel_of(cloud.points[i], inverse);
     const Key at = {voxel.x >> kTileBits, voxel.y >> kTileBits, voxel.z >> kTileBits};
     if (held == nullptr || at != held_at) {
       held = &tiles_.at(at);
@@ -105,4 +105,4 @@ void OverviewCloud::add(const std::vector<Eigen::Vector3f>& points) {
   }
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::cloud

@@ -5,7 +5,7 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/search/voxel_table.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 namespace {
 
 float inverse_of(double size_m) {
@@ -19,10 +19,10 @@ float inverse_of(double size_m) {
 
 std::vector<std::size_t> voxel_first_indices(const std::vector<Eigen::Vector3f>& points, double size_m) {
   const float inverse = inverse_of(size_m);
-  VoxelTable table(points.size() / 4);
+  search::VoxelTable table(points.size() / 4);
   std::vector<std::size_t> first;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (table.insert(voxel_of(points[i], inverse)) == first.size()) {
+    if (table.insert(search::voxel_of(points[i], inverse)) == first.size()) {
       first.push_back(i);
     }
   }
@@ -31,11 +31,11 @@ std::vector<std::size_t> voxel_first_indices(const std::vector<Eigen::Vector3f>&
 
 std::vector<std::size_t> voxel_central_indices(const std::vector<Eigen::Vector3f>& points, double size_m) {
   const float inverse = inverse_of(size_m);
-  VoxelTable table(points.size() / 4);
+  search::VoxelTable table(points.size() / 4);
   std::vector<std::size_t> central;
   std::vector<float> least;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Voxel voxel = voxel_of(points[i], inverse);
+    const search::Voxel voxel = search::voxel_of(points[i], inverse);
     const Eigen::Vector3f centre =
         Eigen::Vector3f(static_cast<float>(voxel.x), static_cast<float>(voxel.y), static_cast<float>(voxel.z)) +
         Eigen::Vector3f::Constant(0.5F);
@@ -54,11 +54,11 @@ std::vector<std::size_t> voxel_central_indices(const std::vector<Eigen::Vector3f
 
 std::vector<Eigen::Vector3f> voxel_centroids(const std::vector<Eigen::Vector3f>& points, double size_m) {
   const float inverse = inverse_of(size_m);
-  VoxelTable table(points.size() / 4);
+  search::VoxelTable table(points.size() / 4);
   std::vector<Eigen::Vector3d> sums;
   std::vector<double> counts;
   for (const Eigen::Vector3f& point : points) {
-    const std::uint32_t voxel = table.insert(voxel_of(point, inverse));
+    const std::uint32_t voxel = table.insert(search::voxel_of(point, inverse));
     if (voxel == sums.size()) {
       sums.emplace_back(0.0, 0.0, 0.0);
       counts.push_back(0.0);
@@ -78,4 +78,4 @@ PointCloud voxel_downsampled(const PointCloud& cloud, double size_m) {
   return select(cloud, voxel_first_indices(cloud.points, size_m));
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::cloud

@@ -24,4 +24,11 @@ InputError::InputError(const std::string& file, const std::string& place, const 
                        const std::string& remedy)
     : std::runtime_error(join(file, place, problem, remedy)) {}
 
+ExitCode exit_code_of(const std::exception& problem) {
+  if (dynamic_cast<const InputError*>(&problem) != nullptr) {
+    return ExitCode::kInput;
+  }
+  return dynamic_cast<const Interrupted*>(&problem) != nullptr ? ExitCode::kInterrupted : ExitCode::kInternal;
+}
+
 }  // namespace loopmark

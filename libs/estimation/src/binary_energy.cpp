@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace loopmark {
+namespace loopmark::estimation {
 namespace {
 
 constexpr double kEmpty = 1e-12;
@@ -76,7 +76,7 @@ std::vector<bool> BinaryEnergy::minimise() {
     while (push(source_, std::numeric_limits<double>::infinity()) > 0.0) {
     }
   }
-  // After the last levelling, what the source still reaches stands on its side and is 0.
+  // After the last ground_alignment, what the source still reaches stands on its side and is 0.
   std::vector<bool> values(unary_.size());
   for (std::size_t v = 0; v < values.size(); ++v) {
     values[v] = level_[v] < 0;
@@ -84,4 +84,4 @@ std::vector<bool> BinaryEnergy::minimise() {
   return values;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

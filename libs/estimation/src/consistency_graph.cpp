@@ -11,7 +11,7 @@
 #include "loopmark/core/parallel.hpp"
 #include "scorer.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 namespace {
 
 constexpr std::size_t kBlock = 64;  // rows a task, and bits a word
@@ -33,15 +33,15 @@ void pack(const std::vector<std::uint8_t>& bytes, std::size_t from, std::size_t 
 
 ConsistencyGraph::ConsistencyGraph(const PointPairs& pairs, double tolerance_m)
     : size_(pairs.size()), words_((pairs.size() + 63) / 64), bits_(size_ * words_) {
-  const Scorer arrays(pairs, 1.0);
+  const internal::Scorer arrays(pairs, 1.0);
   parallel_for(words_, [&](std::size_t block) { compare(arrays, static_cast<float>(tolerance_m), block); });
   parallel_for(words_, [&](std::size_t block) { mirror(block); });
 }
 
-void ConsistencyGraph::compare(const Scorer& arrays, float tolerance_m, std::size_t block) {
-  std::vector<std::uint8_t> bytes(words_ * kBlock + kernels::kPairLanes, 0);
+void ConsistencyGraph::compare(const internal::Scorer& arrays, float tolerance_m, std::size_t block) {
+  std::vector<std::uint8_t> bytes(words_ * kBlock + internal::kPairLanes, 0);
   for (std::size_t i = block * kBlock; i < std::min(size_, (block + 1) * kBlock); ++i) {
-    kernels::consistency_row(arrays.arrays(), i, block * kBlock, tolerance_m, bytes.data());
+    internal::consistency_row(arrays.arrays(), i, block * kBlock, tolerance_m, bytes.data());
     bytes[i] = 0;
     std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(size_), bytes.end(), std::uint8_t{0});
     pack(bytes, block, words_, bits_.data() + i * words_);
@@ -55,17 +55,17 @@ void ConsistencyGraph::mirror(std::size_t block) {
     for (std::size_t r = 0; r < kBlock; ++r) {
       square[r] = bits_[(other * kBlock + r) * words_ + block];
     }
-    kernels::transpose_bits(square.data());
+    internal::transpose_bits(square.data());
     for (std::size_t r = 0; r < rows; ++r) {
       bits_[(block * kBlock + r) * words_ + other] = square[r];
     }
   }
 }
 
-std::size_t ConsistencyGraph::degree(std::size_t i) const { return kernels::common_bits(row(i), row(i), words_); }
+std::size_t ConsistencyGraph::degree(std::size_t i) const { return internal::common_bits(row(i), row(i), words_); }
 
 std::size_t ConsistencyGraph::common(std::size_t i, std::size_t j) const {
-  return kernels::common_bits(row(i), row(j), words_);
+  return internal::common_bits(row(i), row(j), words_);
 }
 
 std::vector<std::size_t> core_numbers(const ConsistencyGraph& graph) {
@@ -162,4 +162,4 @@ std::vector<std::size_t> large_clique(const ConsistencyGraph& graph, std::size_t
   return best;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

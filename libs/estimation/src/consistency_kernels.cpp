@@ -6,7 +6,7 @@
 
 #include "loopmark/core/dispatch.hpp"
 
-namespace loopmark::kernels {
+namespace loopmark::estimation::internal {
 
 LOOPMARK_DISPATCH
 void consistency_row(const PairArrays& pairs, std::size_t i, std::size_t from, float tolerance,
@@ -53,4 +53,4 @@ std::size_t common_bits(const std::uint64_t* a, const std::uint64_t* b, std::siz
   return count;
 }
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::estimation::internal

@@ -7,7 +7,7 @@
 
 #include "score_kernels.hpp"
 
-namespace loopmark::kernels {
+namespace loopmark::estimation::internal {
 
 /// consistent[j] = 1 where the distances of pairs i and j differ by less than the tolerance, else 0; from j = `from`
 /// on.
@@ -20,4 +20,4 @@ void transpose_bits(std::uint64_t* block);
 /// Number of bits set in both.
 std::size_t common_bits(const std::uint64_t* a, const std::uint64_t* b, std::size_t words);
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::estimation::internal

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 const char* to_string(EstimateStop stop) {
   switch (stop) {
@@ -29,4 +29,4 @@ std::string Estimate::summary() const {
   return line;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

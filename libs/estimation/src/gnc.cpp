@@ -9,7 +9,7 @@
 
 #include "loopmark/estimation/consistency_graph.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 void check(const GncOptions& o) {
   require_option(o.noise_bound_m > 0, "noise_bound_m", "must be larger than 0");
@@ -103,4 +103,4 @@ Estimate gnc_clique(const PointPairs& pairs, const GncOptions& options) {
   return result;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

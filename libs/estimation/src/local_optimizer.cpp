@@ -8,12 +8,12 @@
 #include "loopmark/estimation/binary_energy.hpp"
 #include "loopmark/search/cell_grid.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation::internal {
 namespace {
 
 std::vector<std::pair<std::size_t, std::size_t>> neighbour_pairs(const PointPairs& pairs, double radius_m) {
   const auto radius = static_cast<float>(radius_m);
-  const CellGrid grid(pairs.source, radius);
+  const search::CellGrid grid(pairs.source, radius);
   std::vector<std::pair<std::size_t, std::size_t>> neighbours;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     grid.within(pairs.source[i], radius, [&](std::uint32_t place, float) {
@@ -96,4 +96,4 @@ void LocalOptimizer::improve(Pose& T, double& score, Rng& rng) {
   }
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation::internal

@@ -9,7 +9,7 @@
 #include "loopmark/estimation/ransac.hpp"
 #include "scorer.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation::internal {
 
 /// Improves a new best motion by least squares on samples of its inliers (LO-RANSAC), the inliers being those
 /// below the threshold or those of a graph cut with spatial coherence (GC-RANSAC).
@@ -32,4 +32,4 @@ class LocalOptimizer {
   std::size_t rounds_ = 0;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation::internal

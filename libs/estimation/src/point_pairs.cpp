@@ -4,14 +4,14 @@
 
 #include <Eigen/SVD>
 
-namespace loopmark {
+namespace loopmark::estimation {
 
-PointPairs PointPairs::of(const Correspondences& matches, const std::vector<Eigen::Vector3f>& source,
+PointPairs PointPairs::of(const matching::Correspondences& matches, const std::vector<Eigen::Vector3f>& source,
                           const std::vector<Eigen::Vector3f>& target) {
   PointPairs pairs;
   pairs.source.reserve(matches.size());
   pairs.target.reserve(matches.size());
-  for (const Correspondence& match : matches) {
+  for (const matching::Correspondence& match : matches) {
     pairs.source.push_back(source.at(match.source));
     pairs.target.push_back(target.at(match.target));
   }
@@ -82,4 +82,4 @@ Pose reweighted_fit(const PointPairs& pairs, const Pose& initial, double thresho
   return T;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

@@ -12,7 +12,7 @@
 #include "scorer.hpp"
 #include "sprt.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 void check(const RansacOptions& o) {
   require_option(o.threshold_m > 0, "threshold_m", "must be larger than 0");
@@ -160,10 +160,10 @@ class Run {
   const PointPairs& pairs_;
   const RansacOptions& options_;
   Rng rng_;
-  TripleSampler sampler_;
-  Scorer scorer_;
-  LocalOptimizer local_;
-  std::optional<SequentialTest> test_;
+  internal::TripleSampler sampler_;
+  internal::Scorer scorer_;
+  internal::LocalOptimizer local_;
+  std::optional<internal::SequentialTest> test_;
   Estimate result_;
   double needed_ = std::numeric_limits<double>::infinity();
   bool optimized_ = false;
@@ -181,4 +181,14 @@ Estimate ransac(const PointPairs& pairs, const RansacOptions& options) {
   return Run(pairs, options).find();
 }
 
-}  // namespace loopmark
+double sprt_threshold(double epsilon, double delta, double model_cost) {
+  const double c = (1.0 - delta) * std::log((1.0 - delta) / (1.0 - epsilon)) + delta * std::log(delta / epsilon);
+  const double start = model_cost * c + 1.0;
+  double a = start;
+  for (int k = 0; k < 20; ++k) {
+    a = start + std::log(a);
+  }
+  return a;
+}
+
+}  // namespace loopmark::estimation

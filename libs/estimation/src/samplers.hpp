@@ -9,7 +9,7 @@
 #include "loopmark/core/random.hpp"
 #include "loopmark/estimation/ransac.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation::internal {
 
 /// Three different numbers below a bound.
 inline void draw_distinct(Rng& rng, std::size_t bound, std::size_t (&triple)[3], std::size_t drawn = 0) {
@@ -74,4 +74,4 @@ class TripleSampler {
   std::size_t drawn_ = 0;         ///< t
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation::internal

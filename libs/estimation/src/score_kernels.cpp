@@ -4,7 +4,7 @@
 
 #include "loopmark/core/dispatch.hpp"
 
-namespace loopmark::kernels {
+namespace loopmark::estimation::internal {
 namespace {
 
 using Vector = float __attribute__((vector_size(4 * kPairLanes), aligned(4)));
@@ -41,4 +41,4 @@ float msac_score(const PairArrays& pairs, const float m[12], float inverse_squar
   return total;
 }
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::estimation::internal

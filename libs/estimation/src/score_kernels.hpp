@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace loopmark::kernels {
+namespace loopmark::estimation::internal {
 
 /// Pairs are filled up to a multiple of this many with pairs that fit no motion.
 constexpr std::size_t kPairLanes = 16;
@@ -20,4 +20,4 @@ struct PairArrays {
 /// `best`, as soon as `best` cannot be beaten.
 float msac_score(const PairArrays& pairs, const float m[12], float inverse_squared, float best);
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::estimation::internal

@@ -8,7 +8,7 @@
 #include "loopmark/estimation/point_pairs.hpp"
 #include "score_kernels.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation::internal {
 
 /// Scores motions against all pairs.
 class Scorer {
@@ -17,7 +17,7 @@ class Scorer {
   Scorer(const PointPairs& pairs, double threshold_m)
       : inverse_squared_(static_cast<float>(1.0 / (threshold_m * threshold_m))) {
     constexpr float kNowhere = 1e15F;
-    const std::size_t padded = (pairs.size() + kernels::kPairLanes - 1) / kernels::kPairLanes * kernels::kPairLanes;
+    const std::size_t padded = (pairs.size() + kPairLanes - 1) / kPairLanes * kPairLanes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       data_[axis].assign(padded, 0.0F);
       data_[axis + 3].assign(padded, kNowhere);
@@ -42,15 +42,15 @@ class Scorer {
         m[4 * r + c] = static_cast<float>(T.matrix()(r, c));
       }
     }
-    return kernels::msac_score(arrays_, m, inverse_squared_, static_cast<float>(best));
+    return msac_score(arrays_, m, inverse_squared_, static_cast<float>(best));
   }
 
-  const kernels::PairArrays& arrays() const { return arrays_; }
+  const PairArrays& arrays() const { return arrays_; }
 
  private:
   std::array<std::vector<float>, 6> data_;
-  kernels::PairArrays arrays_;
+  PairArrays arrays_;
   float inverse_squared_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation::internal

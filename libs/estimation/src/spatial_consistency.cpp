@@ -10,7 +10,7 @@
 #include "loopmark/estimation/consistency_graph.hpp"
 #include "scorer.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 void check(const SpatialConsistencyOptions& o) {
   require_option(o.tolerance_m > 0, "tolerance_m", "must be larger than 0");
@@ -117,7 +117,7 @@ Estimate spatial_consistency(const PointPairs& pairs, const SpatialConsistencyOp
                         {pairs.target.begin(), pairs.target.begin() + n}};
   const ConsistencyGraph graph(used, options.tolerance_m);
   const std::vector<std::size_t> seeds = pick_seeds(used, reliability(graph), options);
-  const Scorer scorer(used, options.threshold_m * options.score_factor);
+  const internal::Scorer scorer(used, options.threshold_m * options.score_factor);
   std::vector<std::pair<double, Pose>> answers(seeds.size(), {0.0, Pose::Identity()});
   parallel_for(seeds.size(), [&](std::size_t s) {
     const std::vector<std::size_t> group = group_of(graph, seeds[s], options.neighbours);
@@ -141,4 +141,4 @@ Estimate spatial_consistency(const PointPairs& pairs, const SpatialConsistencyOp
   return result;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

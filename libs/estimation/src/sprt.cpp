@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace loopmark {
+namespace loopmark::estimation::internal {
 namespace {
 
 /// Cost of a solve in residuals: a 3 x 3 singular value decomposition against one transformed point.
@@ -14,16 +14,6 @@ constexpr double kModelCost = 100.0;
 constexpr double kRedesignAt = 0.05;
 
 }  // namespace
-
-double sprt_threshold(double epsilon, double delta, double model_cost) {
-  const double c = (1.0 - delta) * std::log((1.0 - delta) / (1.0 - epsilon)) + delta * std::log(delta / epsilon);
-  const double start = model_cost * c + 1.0;
-  double a = start;
-  for (int k = 0; k < 20; ++k) {
-    a = start + std::log(a);
-  }
-  return a;
-}
 
 SequentialTest::SequentialTest(const PointPairs& pairs, double threshold_m, Rng& rng)
     : pairs_(pairs), squared_threshold_(threshold_m * threshold_m), order_(pairs.size()) {
@@ -74,4 +64,4 @@ void SequentialTest::redesign() {
   threshold_ = sprt_threshold(epsilon_, delta_, kModelCost);
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation::internal

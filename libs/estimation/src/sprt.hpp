@@ -7,7 +7,7 @@
 #include "loopmark/core/random.hpp"
 #include "loopmark/estimation/ransac.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation::internal {
 
 /// The sequential probability ratio test (Matas and Chum 2005): looks at pairs in random order until a model is
 /// more likely wrong than the threshold allows, and learns the two inlier shares on the way.
@@ -35,4 +35,4 @@ class SequentialTest {
   std::size_t bad_count_ = 0;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation::internal

@@ -20,7 +20,7 @@
 
 extern char** environ;  // NOLINT: POSIX declares it nowhere
 
-namespace loopmark::detail {
+namespace loopmark::evaluation::internal {
 namespace {
 
 constexpr std::size_t kLongestLine = 65536;
@@ -151,4 +151,4 @@ std::string ChildProcess::stop() {
                            : "signal " + std::to_string(WTERMSIG(status));
 }
 
-}  // namespace loopmark::detail
+}  // namespace loopmark::evaluation::internal

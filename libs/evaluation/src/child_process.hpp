@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace loopmark::detail {
+namespace loopmark::evaluation::internal {
 
 /// A program in a process group of its own, spoken to line by line. It is killed with all that it started when this
 /// object goes.
@@ -32,4 +32,4 @@ class ChildProcess {
   std::string buffer_;
 };
 
-}  // namespace loopmark::detail
+}  // namespace loopmark::evaluation::internal

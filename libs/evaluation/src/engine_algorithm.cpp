@@ -5,12 +5,12 @@
 #include "loopmark/core/progress.hpp"
 #include "loopmark/evaluation/algorithm.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 class EngineAlgorithm : public RegistrationAlgorithm {
  public:
-  EngineAlgorithm(const EngineOptions& options, std::string settings)
+  EngineAlgorithm(const registration::EngineOptions& options, std::string settings)
       : options_(options), settings_(std::move(settings)) {}
 
   const std::string& name() const override { return name_; }
@@ -18,15 +18,15 @@ class EngineAlgorithm : public RegistrationAlgorithm {
 
   Answer answer(const PairTask& task) override {
     const Stopwatch whole;
-    const PreparedScan source = prepare_scan(task.scans->source(), options_);
-    const PreparedScan target = prepare_scan(task.scans->target(), options_);
+    const registration::PreparedScan source = registration::prepare_scan(task.scans->source(), options_);
+    const registration::PreparedScan target = registration::prepare_scan(task.scans->target(), options_);
     const double prepared = whole.seconds();
-    const RegistrationResult result = register_scans(source, target, options_);
+    const registration::RegistrationResult result = registration::register_scans(source, target, options_);
     return answer_of(result, prepared, whole.seconds());
   }
 
  private:
-  static Answer answer_of(const RegistrationResult& result, double prepare_seconds, double seconds) {
+  static Answer answer_of(const registration::RegistrationResult& result, double prepare_seconds, double seconds) {
     Answer answer;
     answer.T_target_source = result.T_target_source;
     answer.status = result.answered ? AnswerStatus::kAnswered : AnswerStatus::kAbstained;
@@ -43,15 +43,16 @@ class EngineAlgorithm : public RegistrationAlgorithm {
     return answer;
   }
 
-  EngineOptions options_;
+  registration::EngineOptions options_;
   std::string settings_;
   std::string name_ = "engine";
 };
 
 }  // namespace
 
-std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const EngineOptions& options, std::string settings) {
+std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const registration::EngineOptions& options,
+                                                             std::string settings) {
   return std::make_unique<EngineAlgorithm>(options, std::move(settings));
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -10,33 +10,33 @@
 #include <thread>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/interrupt.hpp"
 #include "loopmark/core/progress.hpp"
-#include "number_rows.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/text/number_rows.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
-std::string hash_of_set(const std::vector<RegistrationPair>& pairs) {
+std::string hash_of_set(const std::vector<pair_sets::RegistrationPair>& pairs) {
   std::string text;
-  for (const RegistrationPair& pair : pairs) {
+  for (const pair_sets::RegistrationPair& pair : pairs) {
     text += to_string(pair.key);
-    detail::append_motion(text, pair.T_target_source);
+    text::append_motion(text, pair.T_target_source);
     text += '\n';
   }
-  return sha256_hex(text);
+  return storage::sha256_hex(text);
 }
 
 std::string hash_of_extras(const ExperimentTask& task) {
   std::string text;
-  for (const PairKey& key : task.set.negatives) {
+  for (const pair_sets::PairKey& key : task.set.negatives) {
     text += to_string(key) + '\n';
   }
   for (const Pose& pose : task.perturbations) {
-    detail::append_motion(text, pose);
+    text::append_motion(text, pose);
   }
-  return sha256_hex(text);
+  return storage::sha256_hex(text);
 }
 
 /// Recall so far, for the progress line.
@@ -144,7 +144,7 @@ class Run {
   }
 
   std::unique_ptr<PairScans> load_scans(std::size_t index) const {
-    const PairKey& key = task_.set.key(index);
+    const pair_sets::PairKey& key = task_.set.key(index);
     PointCloud source = load_(key.session, key.source);
     if (const Pose* moved = perturbation(index)) {
       source = transformed(source, *moved);
@@ -217,4 +217,4 @@ void run_experiment(const ExperimentTask& task, const AlgorithmList& algorithms,
   Run(task, algorithms, load, writer).all();
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -14,11 +14,11 @@
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::ChildProcess;
+using internal::ChildProcess;
 
 constexpr const char* kGreeting = "loopmark-registration 1";
 
@@ -104,8 +104,8 @@ class ExternalAlgorithm : public RegistrationAlgorithm {
   Answer answer(const PairTask& task) override {
     const fs::path source = scratch_ / (std::to_string(task.index) + "-source.bin");
     const fs::path target = scratch_ / (std::to_string(task.index) + "-target.bin");
-    write_bin(source, task.scans->source());
-    write_bin(target, task.scans->target());
+    io::write_bin(source, task.scans->source());
+    io::write_bin(target, task.scans->target());
     Answer answer;
     try {
       answer = ask("pair " + source.string() + " " + target.string());
@@ -118,22 +118,22 @@ class ExternalAlgorithm : public RegistrationAlgorithm {
   }
 
  private:
-  std::unique_ptr<ChildProcess> start() const {
-    auto process = std::make_unique<ChildProcess>(options_.command);
+  std::unique_ptr<internal::ChildProcess> start() const {
+    auto process = std::make_unique<internal::ChildProcess>(options_.command);
     std::string line;
     const bool listens = process->write_line(kGreeting);
-    const ChildProcess::Read read = process->read_line(line, options_.start_limit_s);
-    if (!listens || read != ChildProcess::Read::kLine || line.rfind("ready", 0) != 0) {
-      const std::string what = read == ChildProcess::Read::kTimeLimit ? "said nothing"
-                               : read == ChildProcess::Read::kLine    ? "said '" + shortened(line) + "'"
-                                                                      : "ended (" + process->stop() + ")";
+    const internal::ChildProcess::Read read = process->read_line(line, options_.start_limit_s);
+    if (!listens || read != internal::ChildProcess::Read::kLine || line.rfind("ready", 0) != 0) {
+      const std::string what = read == internal::ChildProcess::Read::kTimeLimit ? "said nothing"
+                               : read == internal::ChildProcess::Read::kLine    ? "said '" + shortened(line) + "'"
+                                                                                : "ended (" + process->stop() + ")";
       throw InputError("the program '" + options_.command + "' " + what + " where 'ready' was expected", "",
                        "it must speak the protocol of docs/evaluation.md");
     }
     return process;
   }
 
-  std::unique_ptr<ChildProcess> take() {
+  std::unique_ptr<internal::ChildProcess> take() {
     {
       const std::scoped_lock lock(mutex_);
       if (!idle_.empty()) {
@@ -146,16 +146,16 @@ class ExternalAlgorithm : public RegistrationAlgorithm {
   }
 
   Answer ask(const std::string& request) {
-    std::unique_ptr<ChildProcess> process = take();
+    std::unique_ptr<internal::ChildProcess> process = take();
     const Stopwatch watch;
     std::string line;
     const bool listens = process->write_line(request);
-    const ChildProcess::Read read = process->read_line(line, options_.time_limit_s);
+    const internal::ChildProcess::Read read = process->read_line(line, options_.time_limit_s);
     const double seconds = watch.seconds();
     Answer answer;
-    if (!listens || read == ChildProcess::Read::kEnded) {
+    if (!listens || read == internal::ChildProcess::Read::kEnded) {
       answer = failure(AnswerStatus::kCrashed, "the program ended (" + process->stop() + ")");
-    } else if (read == ChildProcess::Read::kTimeLimit) {
+    } else if (read == internal::ChildProcess::Read::kTimeLimit) {
       answer = failure(AnswerStatus::kTimeLimit, "no answer within the time limit");
     } else {
       answer = parse_answer(line);
@@ -172,7 +172,7 @@ class ExternalAlgorithm : public RegistrationAlgorithm {
   ExternalOptions options_;
   fs::path scratch_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<ChildProcess>> idle_;
+  std::vector<std::unique_ptr<internal::ChildProcess>> idle_;
 };
 
 }  // namespace
@@ -181,4 +181,4 @@ std::unique_ptr<RegistrationAlgorithm> make_external_algorithm(std::string name,
   return std::make_unique<ExternalAlgorithm>(std::move(name), options);
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <utility>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/evaluation/algorithm.hpp"
-#include "number_rows.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/text/number_rows.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 class MotionsAlgorithm : public RegistrationAlgorithm {
@@ -20,9 +20,9 @@ class MotionsAlgorithm : public RegistrationAlgorithm {
   std::string settings() const override {
     std::string text;
     for (const Pose& motion : motions_) {
-      detail::append_motion(text, motion);
+      text::append_motion(text, motion);
     }
-    return "motions " + sha256_hex(text);
+    return "motions " + storage::sha256_hex(text);
   }
 
   Answer answer(const PairTask& task) override {
@@ -47,4 +47,4 @@ std::unique_ptr<RegistrationAlgorithm> make_motions_algorithm(std::string name, 
   return std::make_unique<MotionsAlgorithm>(std::move(name), std::move(motions));
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

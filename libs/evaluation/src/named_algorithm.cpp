@@ -5,26 +5,27 @@
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/algorithm.hpp"
+#include "loopmark/feature_registration/named_algorithms.hpp"
+#include "loopmark/feature_registration/pipeline.hpp"
 #include "loopmark/features/descriptor_file.hpp"
-#include "loopmark/registration/named_algorithms.hpp"
-#include "loopmark/registration/paper_pipeline.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
-double seconds_of(const std::vector<StageTime>& stages) {
+double seconds_of(const std::vector<registration::StageTime>& stages) {
   double seconds = 0.0;
-  for (const StageTime& stage : stages) {
+  for (const registration::StageTime& stage : stages) {
     seconds += stage.seconds;
   }
   return seconds;
 }
 
 /// The named variants differ in whether ground is described; everything else of the description is the same.
-std::string description_key(const PaperOptions& options) {
+std::string description_key(const feature_registration::FeatureRegistrationOptions& options) {
   return std::string(options.match_ground ? "all points" : "without ground") + ", voxel " +
-         std::to_string(options.voxel_m) + (options.voxel_point == VoxelPoint::kFirst ? " first" : " centroid") +
-         ", normals " + std::to_string(options.normals.radius_m) + ", fpfh " + std::to_string(options.fpfh.radius_m);
+         std::to_string(options.voxel_m) +
+         (options.voxel_point == feature_registration::VoxelPoint::kFirst ? " first" : " centroid") + ", normals " +
+         std::to_string(options.normals.radius_m) + ", fpfh " + std::to_string(options.fpfh.radius_m);
 }
 
 /// The file of a frame's descriptors. Throws InputError when there is none.
@@ -45,8 +46,8 @@ class PaperAlgorithm : public RegistrationAlgorithm {
  public:
   /// `features`: folder of descriptors made elsewhere; empty: FPFH. `key`: what variants that describe scans alike
   /// share.
-  PaperAlgorithm(std::string name, PaperOptions options, std::filesystem::path features, std::string key,
-                 std::string settings)
+  PaperAlgorithm(std::string name, feature_registration::FeatureRegistrationOptions options,
+                 std::filesystem::path features, std::string key, std::string settings)
       : name_(std::move(name)),
         options_(options),
         features_(std::move(features)),
@@ -59,30 +60,33 @@ class PaperAlgorithm : public RegistrationAlgorithm {
   std::string settings() const override { return settings_; }
 
   Answer answer(const PairTask& task) override {
-    const DescribedScan& source = task.scans->shared<DescribedScan>("source, " + key_, [&] {
-      return described(task.scans->source(), task.key.session, task.key.source, task.perturbation);
-    });
-    const DescribedScan& target = task.scans->shared<DescribedScan>("target, " + key_, [&] {
-      return described(task.scans->target(), task.key.target_session, task.key.target, nullptr);
-    });
-    const ScanMatches& matches =
-        task.scans->shared<ScanMatches>("matches, " + key_, [&] { return match_described(source, target); });
-    return answer_of(register_matched(source, target, matches, options_), source, target);
+    const feature_registration::DescribedScan& source = task.scans->shared<feature_registration::DescribedScan>(
+        "source, " + key_,
+        [&] { return described(task.scans->source(), task.key.session, task.key.source, task.perturbation); });
+    const feature_registration::DescribedScan& target = task.scans->shared<feature_registration::DescribedScan>(
+        "target, " + key_,
+        [&] { return described(task.scans->target(), task.key.target_session, task.key.target, nullptr); });
+    const feature_registration::ScanMatches& matches = task.scans->shared<feature_registration::ScanMatches>(
+        "matches, " + key_, [&] { return feature_registration::match_described(source, target); });
+    return answer_of(feature_registration::register_matched(source, target, matches, options_), source, target);
   }
 
  private:
-  DescribedScan described(const PointCloud& cloud, int session, int frame, const Pose* moved) const {
+  feature_registration::DescribedScan described(const PointCloud& cloud, int session, int frame,
+                                                const Pose* moved) const {
     if (features_.empty()) {
-      return describe_scan(cloud, options_);
+      return feature_registration::describe_scan(cloud, options_);
     }
-    DescriptorFile file = read_descriptors(descriptor_file(features_, session, frame));
+    features::DescriptorFile file = features::read_descriptors(descriptor_file(features_, session, frame));
     for (Eigen::Vector3f& point : file.points) {
       point = moved == nullptr ? point : Eigen::Vector3f((*moved * point.cast<double>()).cast<float>());
     }
-    return described_scan(std::move(file.points), std::move(file.descriptors), cloud, options_);
+    return feature_registration::described_scan(std::move(file.points), std::move(file.descriptors), cloud, options_);
   }
 
-  static Answer answer_of(const PaperResult& result, const DescribedScan& source, const DescribedScan& target) {
+  static Answer answer_of(const feature_registration::FeatureRegistrationResult& result,
+                          const feature_registration::DescribedScan& source,
+                          const feature_registration::DescribedScan& target) {
     Answer answer;
     answer.T_target_source = result.T_target_source;
     answer.status = result.found ? AnswerStatus::kAnswered : AnswerStatus::kFailed;
@@ -101,14 +105,15 @@ class PaperAlgorithm : public RegistrationAlgorithm {
   }
 
   std::string name_;
-  PaperOptions options_;
+  feature_registration::FeatureRegistrationOptions options_;
   std::filesystem::path features_;
   std::string key_;
   std::string settings_;
 };
 
 /// "NAME#3" has the seed 3.
-PaperOptions with_seed_of(const std::string& name, PaperOptions options) {
+feature_registration::FeatureRegistrationOptions with_seed_of(
+    const std::string& name, feature_registration::FeatureRegistrationOptions options) {
   const std::size_t mark = name.find('#');
   if (mark != std::string::npos) {
     const std::string number = name.substr(mark + 1);
@@ -120,9 +125,9 @@ PaperOptions with_seed_of(const std::string& name, PaperOptions options) {
   return options;
 }
 
-std::unique_ptr<RegistrationAlgorithm> make_paper_algorithm(const std::string& name, const PaperOptions& options,
-                                                            const DescriptorSource& descriptors, std::string key,
-                                                            const std::string& settings) {
+std::unique_ptr<RegistrationAlgorithm> make_paper_algorithm(
+    const std::string& name, const feature_registration::FeatureRegistrationOptions& options,
+    const DescriptorSource& descriptors, std::string key, const std::string& settings) {
   const auto& [domain, folder] = descriptors;
   if (domain.empty()) {
     return std::make_unique<PaperAlgorithm>(name, options, "", std::move(key), settings);
@@ -138,20 +143,21 @@ std::unique_ptr<RegistrationAlgorithm> make_paper_algorithm(const std::string& n
 
 std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name,
                                                             const DescriptorSource& descriptors) {
-  const PaperOptions options = with_seed_of(name, named_algorithm(name.substr(0, name.find('#'))));
+  const feature_registration::FeatureRegistrationOptions options =
+      with_seed_of(name, feature_registration::named_algorithm(name.substr(0, name.find('#'))));
   const std::string key = description_key(options);
   return make_paper_algorithm(
       name, options, descriptors, key,
       "the paper's pipeline as " + name + ", seed " + std::to_string(options.ransac.seed) + ", " + key);
 }
 
-std::unique_ptr<RegistrationAlgorithm> make_configured_algorithm(const std::string& name, const PaperOptions& options,
-                                                                 const std::string& settings,
-                                                                 const DescriptorSource& descriptors) {
-  const PaperOptions own = with_seed_of(name, options);
+std::unique_ptr<RegistrationAlgorithm> make_configured_algorithm(
+    const std::string& name, const feature_registration::FeatureRegistrationOptions& options,
+    const std::string& settings, const DescriptorSource& descriptors) {
+  const feature_registration::FeatureRegistrationOptions own = with_seed_of(name, options);
   check(own);
   return make_paper_algorithm(name, own, descriptors, "configured: " + settings,
                               settings + "seed: " + std::to_string(own.ransac.seed));
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -7,7 +7,7 @@
 
 #include "loopmark/core/error.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 constexpr std::array<std::pair<AnswerStatus, const char*>, 5> kStatusNames = {{
@@ -57,4 +57,4 @@ Outcome judge_negative(std::size_t pair, const std::string& algorithm, Answer an
   return {pair, algorithm, std::move(answer), true, {kNaN, kNaN}, false};
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

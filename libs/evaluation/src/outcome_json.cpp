@@ -7,7 +7,7 @@
 
 #include "loopmark/core/error.hpp"
 
-namespace loopmark::detail {
+namespace loopmark::evaluation::internal {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -72,7 +72,7 @@ std::string times_to_line(const Outcome& outcome) {
   json["paper_seconds"] = number(outcome.answer.paper_seconds);
   json["total_seconds"] = number(outcome.answer.total_seconds);
   Json stages = Json::array();
-  for (const StageTime& stage : outcome.answer.timings) {
+  for (const registration::StageTime& stage : outcome.answer.timings) {
     stages.push_back({stage.stage, stage.seconds});
   }
   json["stages"] = stages;
@@ -142,4 +142,4 @@ Experiment experiment_from_json(const std::string& text, const std::string& file
   });
 }
 
-}  // namespace loopmark::detail
+}  // namespace loopmark::evaluation::internal

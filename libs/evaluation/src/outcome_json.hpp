@@ -6,7 +6,7 @@
 
 #include "loopmark/evaluation/result_folder.hpp"
 
-namespace loopmark::detail {
+namespace loopmark::evaluation::internal {
 
 /// What counts of an outcome, as one line of JSON; the times are left out.
 std::string outcome_to_line(const Outcome& outcome);
@@ -25,4 +25,4 @@ Experiment experiment_from_json(const std::string& text, const std::string& file
 std::string summary_to_json(const Experiment& experiment, const std::vector<AlgorithmSummary>& summaries,
                             const std::vector<PairedTest>& tests);
 
-}  // namespace loopmark::detail
+}  // namespace loopmark::evaluation::internal

@@ -3,7 +3,7 @@
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/evaluation/algorithm.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 constexpr double kVoxelM = 0.3;
@@ -11,11 +11,11 @@ constexpr double kVoxelM = 0.3;
 }  // namespace
 
 const PointCloud& PairScans::small_source() {
-  return shared<PointCloud>("small source", [&] { return voxel_downsampled(source_, kVoxelM); });
+  return shared<PointCloud>("small source", [&] { return cloud::voxel_downsampled(source_, kVoxelM); });
 }
 
 const PointCloud& PairScans::small_target() {
-  return shared<PointCloud>("small target", [&] { return voxel_downsampled(target_, kVoxelM); });
+  return shared<PointCloud>("small target", [&] { return cloud::voxel_downsampled(target_, kVoxelM); });
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

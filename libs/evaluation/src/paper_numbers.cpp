@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/evaluation/paper_numbers.hpp"
 
-namespace loopmark::paper {
+namespace loopmark::evaluation::paper {
 
 const std::vector<EvaluationRow>& evaluation() {
   static const std::vector<EvaluationRow> rows = {{"DGR", 57.91, 0.453, 61.81, 0.494},
@@ -56,4 +56,4 @@ const std::vector<SetSizes>& set_sizes() {
   return rows;
 }
 
-}  // namespace loopmark::paper
+}  // namespace loopmark::evaluation::paper

@@ -9,9 +9,9 @@
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/paper_numbers.hpp"
-#include "loopmark/evaluation/set_statistics.hpp"
+#include "loopmark/pair_sets/set_statistics.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 constexpr const char* kTheirs =
@@ -28,8 +28,8 @@ std::vector<AlgorithmSummary> summaries_of(const StoredResult& result) {
   return summarise_all(result.outcomes, result.experiment.algorithms, result.set);
 }
 
-std::string share_cell(const AlgorithmSummary* s) { return s == nullptr ? "-" : percent(s->recall()); }
-std::string time_cell(const AlgorithmSummary* s) { return s == nullptr ? "-" : fixed(s->paper_seconds.mean, 3); }
+std::string share_cell(const AlgorithmSummary* s) { return s == nullptr ? "-" : text::percent(s->recall()); }
+std::string time_cell(const AlgorithmSummary* s) { return s == nullptr ? "-" : text::fixed(s->paper_seconds.mean, 3); }
 
 /// The mean of a named number, over all algorithms that have it.
 double mean_number(const std::vector<AlgorithmSummary>& summaries, const std::string& name) {
@@ -57,11 +57,11 @@ std::vector<std::string> all_algorithms(const std::vector<DomainResult>& results
 }
 
 /// The layout of the 3 x 3 tables: ours first, then the paper's with its own columns.
-TextTable domain_table(const std::string& name, const std::string& caption, const std::vector<DomainResult>& results,
-                       std::string (*ours)(const AlgorithmSummary*), std::vector<double> paper::DomainRow::*theirs,
-                       int decimals) {
+text::TextTable domain_table(const std::string& name, const std::string& caption,
+                             const std::vector<DomainResult>& results, std::string (*ours)(const AlgorithmSummary*),
+                             std::vector<double> paper::DomainRow::*theirs, int decimals) {
   const std::vector<std::string> algorithms = all_algorithms(results);
-  TextTable table{name, caption, {"Test", "Train"}, {}, kTheirs};
+  text::TextTable table{name, caption, {"Test", "Train"}, {}, kTheirs};
   table.columns.insert(table.columns.end(), algorithms.begin(), algorithms.end());
   for (const std::string& algorithm : paper::domain_algorithms()) {
     table.columns.push_back(algorithm + " (paper)");
@@ -80,7 +80,7 @@ TextTable domain_table(const std::string& name, const std::string& caption, cons
     std::vector<std::string> row = {domain.test + " (paper)", domain.train};
     row.insert(row.end(), algorithms.size(), "-");
     for (const double value : domain.*theirs) {
-      row.push_back(fixed(value, decimals));
+      row.push_back(text::fixed(value, decimals));
     }
     table.rows.push_back(std::move(row));
   }
@@ -127,13 +127,14 @@ std::vector<DomainResult> split_by_domain(const std::string& test, const std::st
   return domains;
 }
 
-TextTable paper_evaluation_table(const StoredResult& result, bool cross_domain) {
-  TextTable table{cross_domain ? "cross_domain" : "evaluation",
-                  std::string(cross_domain ? "Cross-domain evaluation" : "Evaluation of registration algorithms") +
-                      " on " + result.experiment.set_name,
-                  {"Algorithm", "Recall, algo. only", "Time (s)", "Recall, with ICP", "Time (s)"},
-                  {},
-                  kTheirs};
+text::TextTable paper_evaluation_table(const StoredResult& result, bool cross_domain) {
+  text::TextTable table{
+      cross_domain ? "cross_domain" : "evaluation",
+      std::string(cross_domain ? "Cross-domain evaluation" : "Evaluation of registration algorithms") + " on " +
+          result.experiment.set_name,
+      {"Algorithm", "Recall, algo. only", "Time (s)", "Recall, with ICP", "Time (s)"},
+      {},
+      kTheirs};
   const auto summaries = summaries_of(result);
   for (const AlgorithmSummary& summary : summaries) {
     if (summary.name.find('+') == std::string::npos) {
@@ -143,61 +144,66 @@ TextTable paper_evaluation_table(const StoredResult& result, bool cross_domain) 
     }
   }
   for (const paper::EvaluationRow& row : cross_domain ? paper::cross_domain() : paper::evaluation()) {
-    table.rows.push_back({row.algorithm + " (paper, NuScenes-Boston)", fixed(row.recall, 2) + " %",
-                          fixed(row.seconds, 3), fixed(row.recall_icp, 2) + " %", fixed(row.seconds_icp, 3)});
+    table.rows.push_back({row.algorithm + " (paper, NuScenes-Boston)", text::fixed(row.recall, 2) + " %",
+                          text::fixed(row.seconds, 3), text::fixed(row.recall_icp, 2) + " %",
+                          text::fixed(row.seconds_icp, 3)});
   }
   return table;
 }
 
-TextTable paper_matrix_table(const std::vector<DomainResult>& results) {
+text::TextTable paper_matrix_table(const std::vector<DomainResult>& results) {
   return domain_table("matrix", "Recall (%) by test and train domain", results, share_cell, &paper::DomainRow::recall,
                       2);
 }
 
-TextTable paper_times_table(const std::vector<DomainResult>& results) {
+text::TextTable paper_times_table(const std::vector<DomainResult>& results) {
   return domain_table("running_times", "Seconds a pair by test and train domain", results, time_cell,
                       &paper::DomainRow::seconds, 3);
 }
 
-TextTable paper_match_sizes_table(const std::vector<DomainResult>& results) {
-  TextTable table{"match_sizes",
-                  "Pair-match set sizes (means)",
-                  {"Test", "Train", "Initial", "MNN-filtered"},
-                  {},
-                  "Rows marked (paper) are the paper's own numbers, of FCGF features."};
+text::TextTable paper_match_sizes_table(const std::vector<DomainResult>& results) {
+  text::TextTable table{"match_sizes",
+                        "Pair-match set sizes (means)",
+                        {"Test", "Train", "Initial", "MNN-filtered"},
+                        {},
+                        "Rows marked (paper) are the paper's own numbers, of FCGF features."};
   for (const DomainResult& domain : results) {
     const auto summaries = summaries_of(domain.result);
-    table.rows.push_back({domain.test, domain.train, fixed(mean_number(summaries, "matches_initial"), 0),
-                          fixed(mean_number(summaries, "matches_mutual"), 0)});
+    table.rows.push_back({domain.test, domain.train, text::fixed(mean_number(summaries, "matches_initial"), 0),
+                          text::fixed(mean_number(summaries, "matches_mutual"), 0)});
   }
   for (const paper::DomainRow& row : paper::domains()) {
-    table.rows.push_back({row.test + " (paper)", row.train, fixed(row.matches, 0), fixed(row.mutual_matches, 0)});
+    table.rows.push_back(
+        {row.test + " (paper)", row.train, text::fixed(row.matches, 0), text::fixed(row.mutual_matches, 0)});
   }
   return table;
 }
 
-TextTable paper_refinement_table(const StoredResult& result) {
-  TextTable table{"refinement",
-                  "Refinement experiment on " + result.experiment.set_name,
-                  {"Algorithm", "Recall", "TE mean (cm)", "TE 50 %", "TE 95 %", "RE mean (deg)", "RE 50 %", "RE 95 %"},
-                  {},
-                  "Over all pairs. Rows marked (paper) are the paper's own numbers, on Apollo-Southbay-Balanced from "
-                  "its coarse motions."};
+text::TextTable paper_refinement_table(const StoredResult& result) {
+  text::TextTable table{
+      "refinement",
+      "Refinement experiment on " + result.experiment.set_name,
+      {"Algorithm", "Recall", "TE mean (cm)", "TE 50 %", "TE 95 %", "RE mean (deg)", "RE 50 %", "RE 95 %"},
+      {},
+      "Over all pairs. Rows marked (paper) are the paper's own numbers, on Apollo-Southbay-Balanced from "
+      "its coarse motions."};
   for (const AlgorithmSummary& s : summaries_of(result)) {
-    table.rows.push_back({s.name, percent(s.recall()), fixed(100.0 * s.te_m.mean, 2), fixed(100.0 * s.te_m.median, 2),
-                          fixed(100.0 * s.te_m.p95, 2), fixed(s.re_deg.mean, 2), fixed(s.re_deg.median, 2),
-                          fixed(s.re_deg.p95, 2)});
+    table.rows.push_back({s.name, text::percent(s.recall()), text::fixed(100.0 * s.te_m.mean, 2),
+                          text::fixed(100.0 * s.te_m.median, 2), text::fixed(100.0 * s.te_m.p95, 2),
+                          text::fixed(s.re_deg.mean, 2), text::fixed(s.re_deg.median, 2),
+                          text::fixed(s.re_deg.p95, 2)});
   }
   for (const paper::RefinementRow& row : paper::refinement()) {
-    table.rows.push_back({row.algorithm + " (paper)", fixed(row.recall, 2) + " %", fixed(row.te_cm[0], 2),
-                          fixed(row.te_cm[1], 2), fixed(row.te_cm[2], 2), fixed(row.re_deg[0], 2),
-                          fixed(row.re_deg[1], 2), fixed(row.re_deg[2], 2)});
+    table.rows.push_back({row.algorithm + " (paper)", text::fixed(row.recall, 2) + " %", text::fixed(row.te_cm[0], 2),
+                          text::fixed(row.te_cm[1], 2), text::fixed(row.te_cm[2], 2), text::fixed(row.re_deg[0], 2),
+                          text::fixed(row.re_deg[1], 2), text::fixed(row.re_deg[2], 2)});
   }
   return table;
 }
 
-TextTable paper_sets_table(const std::vector<std::pair<std::string, std::vector<RegistrationPair>>>& sets) {
-  TextTable table = set_overview(sets);
+text::TextTable paper_sets_table(
+    const std::vector<std::pair<std::string, std::vector<pair_sets::RegistrationPair>>>& sets) {
+  text::TextTable table = pair_sets::set_overview(sets);
   table.note = "The paper's sets have (train / validation / test):";
   for (const paper::SetSizes& sizes : paper::set_sizes()) {
     table.note += " " + sizes.set + " " + std::to_string(sizes.train) + " / " + std::to_string(sizes.validation) +
@@ -258,26 +264,26 @@ std::vector<Variant> variants_of(const StoredResult& result) {
   return variants;
 }
 
-TextTable paper_ablation_table(const StoredResult& result) {
-  TextTable table{"ablation",
-                  "Ablation on " + result.experiment.set_name,
-                  {"Variant", "Runs", "Recall, mean", "lowest", "highest", "Time (s), mean", "lowest", "highest"},
-                  {},
-                  "The paper shows its ablations as figures only: PROSAC with ELC is best there, LO above GC."};
+text::TextTable paper_ablation_table(const StoredResult& result) {
+  text::TextTable table{"ablation",
+                        "Ablation on " + result.experiment.set_name,
+                        {"Variant", "Runs", "Recall, mean", "lowest", "highest", "Time (s), mean", "lowest", "highest"},
+                        {},
+                        "The paper shows its ablations as figures only: PROSAC with ELC is best there, LO above GC."};
   for (const Variant& variant : variants_of(result)) {
     const auto [slow, fast] = std::minmax_element(variant.runs.begin(), variant.runs.end(),
                                                   [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
     const auto [low, high] = std::minmax_element(variant.runs.begin(), variant.runs.end(),
                                                  [](const auto& a, const auto& b) { return a.recall < b.recall; });
-    table.rows.push_back({variant.name, std::to_string(variant.runs.size()), percent(variant.mean.recall),
-                          percent(low->recall), percent(high->recall), fixed(variant.mean.seconds, 4),
-                          fixed(slow->seconds, 4), fixed(fast->seconds, 4)});
+    table.rows.push_back({variant.name, std::to_string(variant.runs.size()), text::percent(variant.mean.recall),
+                          text::percent(low->recall), text::percent(high->recall), text::fixed(variant.mean.seconds, 4),
+                          text::fixed(slow->seconds, 4), text::fixed(fast->seconds, 4)});
   }
   return table;
 }
 
 std::vector<FailureHistogram> failure_histograms(const StoredResult& result, const std::string& algorithm) {
-  std::vector<RegistrationPair> successes, failures;
+  std::vector<pair_sets::RegistrationPair> successes, failures;
   for (const Outcome& outcome : result.outcomes) {
     if (outcome.algorithm == algorithm && !outcome.negative) {
       (outcome.success ? successes : failures).push_back(result.set.pairs[outcome.pair]);
@@ -287,30 +293,31 @@ std::vector<FailureHistogram> failure_histograms(const StoredResult& result, con
     throw InputError("no algorithm " + algorithm + " in this result");
   }
   std::vector<FailureHistogram> histograms;
-  for (const PairQuantity& quantity : pair_quantities()) {
-    histograms.push_back(
-        {quantity.name, quantity.edges, counts_in_bins(successes, quantity), counts_in_bins(failures, quantity)});
+  for (const pair_sets::PairQuantity& quantity : pair_sets::pair_quantities()) {
+    histograms.push_back({quantity.name, quantity.edges, pair_sets::counts_in_bins(successes, quantity),
+                          pair_sets::counts_in_bins(failures, quantity)});
   }
   return histograms;
 }
 
-TextTable paper_failures_table(const StoredResult& result, const std::string& algorithm) {
-  TextTable table{"failures",
-                  "Failures of " + algorithm + " on " + result.experiment.set_name,
-                  {"Quantity", "From", "To", "Successes", "Failures", "Failed"},
-                  {},
-                  ""};
+text::TextTable paper_failures_table(const StoredResult& result, const std::string& algorithm) {
+  text::TextTable table{"failures",
+                        "Failures of " + algorithm + " on " + result.experiment.set_name,
+                        {"Quantity", "From", "To", "Successes", "Failures", "Failed"},
+                        {},
+                        ""};
   for (const FailureHistogram& histogram : failure_histograms(result, algorithm)) {
     for (std::size_t i = 0; i < histogram.successes.size(); ++i) {
       const double all = static_cast<double>(histogram.successes[i] + histogram.failures[i]);
       if (all > 0.0) {
-        table.rows.push_back({histogram.quantity, fixed(histogram.edges[i], 1), fixed(histogram.edges[i + 1], 1),
-                              std::to_string(histogram.successes[i]), std::to_string(histogram.failures[i]),
-                              percent(static_cast<double>(histogram.failures[i]) / all, 1)});
+        table.rows.push_back({histogram.quantity, text::fixed(histogram.edges[i], 1),
+                              text::fixed(histogram.edges[i + 1], 1), std::to_string(histogram.successes[i]),
+                              std::to_string(histogram.failures[i]),
+                              text::percent(static_cast<double>(histogram.failures[i]) / all, 1)});
       }
     }
   }
   return table;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

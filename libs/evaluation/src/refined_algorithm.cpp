@@ -9,26 +9,26 @@
 #include "loopmark/features/normals.hpp"
 #include "loopmark/refinement/icp.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 struct Method {
   std::string name;
-  IcpOptions options;
+  refinement::IcpOptions options;
 };
 
 /// The refinements on offer; 0.3 m clouds, pairs up to 0.6 m, 30 iterations (paper, appendix "Local Registration").
 const std::vector<Method>& methods() {
   static const std::vector<Method> table = [] {
-    IcpOptions point;
-    IcpOptions symmetric;
-    symmetric.metric = IcpMetric::kSymmetric;
-    IcpOptions buddies;
-    buddies.pairing = IcpPairing::kBestBuddies;
-    IcpOptions plane;
-    plane.metric = IcpMetric::kPointToPlane;
-    IcpOptions generalized;
-    generalized.metric = IcpMetric::kGeneralized;
+    refinement::IcpOptions point;
+    refinement::IcpOptions symmetric;
+    symmetric.metric = refinement::IcpMetric::kSymmetric;
+    refinement::IcpOptions buddies;
+    buddies.pairing = refinement::IcpPairing::kBestBuddies;
+    refinement::IcpOptions plane;
+    plane.metric = refinement::IcpMetric::kPointToPlane;
+    refinement::IcpOptions generalized;
+    generalized.metric = refinement::IcpMetric::kGeneralized;
     return std::vector<Method>{
         {"icp", point}, {"sym-icp", symmetric}, {"bbr", buddies}, {"plane-icp", plane}, {"gicp", generalized}};
   }();
@@ -37,7 +37,7 @@ const std::vector<Method>& methods() {
 
 /// A target made ready for searching, once a pair for all that refine alike, and what that took.
 struct ReadyTarget {
-  IcpTarget target;
+  refinement::IcpTarget target;
   double seconds = 0.0;
 };
 
@@ -54,11 +54,12 @@ class RefinedAlgorithm : public RegistrationAlgorithm {
     if (!answer.has_motion()) {
       return answer;
     }
-    const bool normals = method_.options.metric != IcpMetric::kPointToPoint;
-    const Surface& source = surface(*task.scans, "source", task.scans->small_source(), normals);
+    const bool normals = method_.options.metric != refinement::IcpMetric::kPointToPoint;
+    const refinement::Surface& source = surface(*task.scans, "source", task.scans->small_source(), normals);
     const ReadyTarget& target = ready_target(*task.scans, normals);
     const Stopwatch watch;
-    const IcpResult result = icp(source, target.target, answer.T_target_source, method_.options);
+    const refinement::IcpResult result =
+        refinement::icp(source, target.target, answer.T_target_source, method_.options);
     const double seconds = target.seconds + watch.seconds();
     answer.T_target_source = result.T_target_source;
     answer.numbers.emplace_back("refined_inlier_share", result.inlier_share);
@@ -71,20 +72,21 @@ class RefinedAlgorithm : public RegistrationAlgorithm {
 
  private:
   const ReadyTarget& ready_target(PairScans& scans, bool normals) const {
-    const Surface& target = surface(scans, "target", scans.small_target(), normals);
+    const refinement::Surface& target = surface(scans, "target", scans.small_target(), normals);
     const double distance = method_.options.max_distance_m;
     return scans.shared<ReadyTarget>(
         "icp target" + std::string(normals ? ", normals, " : ", ") + std::to_string(distance), [&] {
           const Stopwatch watch;
-          IcpTarget ready(target, distance);
+          refinement::IcpTarget ready(target, distance);
           return ReadyTarget{std::move(ready), watch.seconds()};
         });
   }
 
-  static const Surface& surface(PairScans& scans, const std::string& which, const PointCloud& cloud, bool normals) {
-    return scans.shared<Surface>("surface of " + which + (normals ? " with normals" : ""), [&] {
-      return Surface{cloud.points,
-                     normals ? estimate_normals(cloud.points, {}).vectors : std::vector<Eigen::Vector3f>()};
+  static const refinement::Surface& surface(PairScans& scans, const std::string& which, const PointCloud& cloud,
+                                            bool normals) {
+    return scans.shared<refinement::Surface>("surface of " + which + (normals ? " with normals" : ""), [&] {
+      return refinement::Surface{cloud.points, normals ? features::estimate_normals(cloud.points, {}).vectors
+                                                       : std::vector<Eigen::Vector3f>()};
     });
   }
 
@@ -115,4 +117,4 @@ std::unique_ptr<RegistrationAlgorithm> make_refined_algorithm(const std::string&
   return std::make_unique<RefinedAlgorithm>(base, *method);
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

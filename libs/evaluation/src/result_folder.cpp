@@ -11,10 +11,10 @@
 #include <map>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 #include "outcome_json.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,13 +65,14 @@ Experiment read_experiment(const fs::path& folder) {
     throw InputError(folder.string(), "", "no experiment here (experiment.json is missing)",
                      "name the folder that loopmark evaluate -o wrote");
   }
-  return detail::experiment_from_json(read_file(folder / kExperimentFile), (folder / kExperimentFile).string());
+  return internal::experiment_from_json(storage::read_file(folder / kExperimentFile),
+                                        (folder / kExperimentFile).string());
 }
 
 EvaluatedSet read_set(const fs::path& folder) {
-  EvaluatedSet set{read_pair_set(folder / kPairsFile), {}};
+  EvaluatedSet set{pair_sets::read_pair_set(folder / kPairsFile), {}};
   if (fs::exists(folder / kNegativesFile)) {
-    set.negatives = read_negatives(folder / kNegativesFile);
+    set.negatives = pair_sets::read_negatives(folder / kNegativesFile);
   }
   return set;
 }
@@ -82,26 +83,26 @@ void write_experiment(const fs::path& folder, const Experiment& experiment, cons
   if (fs::exists(folder / kExperimentFile)) {
     return;
   }
-  write_pair_set(folder / kPairsFile, set.pairs);
+  pair_sets::write_pair_set(folder / kPairsFile, set.pairs);
   if (!set.negatives.empty()) {
-    write_negatives(folder / kNegativesFile, set.negatives);
+    pair_sets::write_negatives(folder / kNegativesFile, set.negatives);
   }
-  write_file_atomically(folder / kExperimentFile, detail::experiment_to_json(experiment));
+  storage::write_file_atomically(folder / kExperimentFile, internal::experiment_to_json(experiment));
 }
 
 /// Outcomes of all record files in a folder, the times put back in; the first record of a pair counts.
 std::map<OutcomeKey, Outcome> read_outcomes(const fs::path& folder) {
   std::map<OutcomeKey, Outcome> outcomes;
   for (const fs::path& file : files_with_ending(folder / "shards", ".records")) {
-    for (const std::string& line : read_records(file).lines) {
-      Outcome outcome = detail::outcome_from_line(line, file.string());
+    for (const std::string& line : storage::read_records(file).lines) {
+      Outcome outcome = internal::outcome_from_line(line, file.string());
       const OutcomeKey key{outcome.algorithm, outcome.pair};
       outcomes.emplace(key, std::move(outcome));
     }
   }
   for (const fs::path& file : files_with_ending(folder / "shards", ".times")) {
-    for (const std::string& line : read_records(file).lines) {
-      const Outcome times = detail::times_from_line(line, file.string());
+    for (const std::string& line : storage::read_records(file).lines) {
+      const Outcome times = internal::times_from_line(line, file.string());
       const auto found = outcomes.find({times.algorithm, times.pair});
       if (found != outcomes.end()) {
         found->second.answer.timings = times.answer.timings;
@@ -201,8 +202,8 @@ OutcomeWriter::OutcomeWriter(const fs::path& folder, const Experiment& experimen
     found_.push_back(std::move(outcome));
   }
   sort_outcomes(found_, experiment.algorithms);
-  records_ = std::make_unique<RecordWriter>(folder / "shards" / (shard_name(shard) + ".records"));
-  times_ = std::make_unique<RecordWriter>(folder / "shards" / (shard_name(shard) + ".times"));
+  records_ = std::make_unique<storage::RecordWriter>(folder / "shards" / (shard_name(shard) + ".records"));
+  times_ = std::make_unique<storage::RecordWriter>(folder / "shards" / (shard_name(shard) + ".times"));
 }
 
 bool OutcomeWriter::done(const std::string& algorithm, std::size_t pair) const {
@@ -212,8 +213,8 @@ bool OutcomeWriter::done(const std::string& algorithm, std::size_t pair) const {
 
 void OutcomeWriter::add(const Outcome& outcome) {
   const std::scoped_lock lock(mutex_);
-  times_->append(detail::times_to_line(outcome));
-  records_->append(detail::outcome_to_line(outcome));
+  times_->append(internal::times_to_line(outcome));
+  records_->append(internal::outcome_to_line(outcome));
   done_.insert({outcome.algorithm, outcome.pair});
 }
 
@@ -267,4 +268,4 @@ void sort_outcomes(std::vector<Outcome>& outcomes, const std::vector<std::string
   });
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

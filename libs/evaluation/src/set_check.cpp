@@ -9,21 +9,21 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/parallel.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
-std::vector<RegistrationPair> with_perturbations(std::vector<RegistrationPair> pairs,
-                                                 const std::vector<Pose>& perturbations) {
+std::vector<pair_sets::RegistrationPair> with_perturbations(std::vector<pair_sets::RegistrationPair> pairs,
+                                                            const std::vector<Pose>& perturbations) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[i] = make_pair(pairs[i].key, pairs[i].T_target_source * perturbations[i].inverse(), pairs[i].overlap,
-                         pairs[i].overlap_symmetric);
+    pairs[i] = pair_sets::make_pair(pairs[i].key, pairs[i].T_target_source * perturbations[i].inverse(),
+                                    pairs[i].overlap, pairs[i].overlap_symmetric);
   }
   return pairs;
 }
 
 }  // namespace
 
-SetCheck check_overlaps(const std::vector<RegistrationPair>& pairs, const std::vector<Pose>& perturbations,
+SetCheck check_overlaps(const std::vector<pair_sets::RegistrationPair>& pairs, const std::vector<Pose>& perturbations,
                         const ScanLoader& load, std::size_t samples) {
   samples = std::min(samples, pairs.size());
   std::vector<double> stored(samples);
@@ -31,16 +31,17 @@ SetCheck check_overlaps(const std::vector<RegistrationPair>& pairs, const std::v
   std::vector<double> difference(samples);
   parallel_for(samples, [&](std::size_t i) {
     const std::size_t index = i * pairs.size() / samples;
-    const RegistrationPair& pair = pairs[index];
+    const pair_sets::RegistrationPair& pair = pairs[index];
     PointCloud source = load(pair.key.session, pair.key.source);
     if (index < perturbations.size()) {
       source = transformed(source, perturbations[index]);
     }
     stored[i] = pair.overlap_symmetric;
-    again[i] = overlap(source, load(pair.key.target_session, pair.key.target), pair.T_target_source).symmetric;
+    again[i] = cloud::overlap(source, load(pair.key.target_session, pair.key.target), pair.T_target_source).symmetric;
     difference[i] = std::abs(again[i] - stored[i]);
   });
-  return {samples, quantile(stored, 0.5), quantile(again, 0.5), quantile(difference, 0.5)};
+  return {samples, statistics::quantile(stored, 0.5), statistics::quantile(again, 0.5),
+          statistics::quantile(difference, 0.5)};
 }
 
 bool match_set_to_scans(ExperimentTask& task, const ScanLoader& load) {
@@ -64,4 +65,4 @@ bool match_set_to_scans(ExperimentTask& task, const ScanLoader& load) {
                    "is this the data set that the pairs were chosen from? --no-check goes on anyway");
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-namespace loopmark {
+namespace loopmark::evaluation {
 namespace {
 
 /// Bins between the edges; the last includes its upper edge.
@@ -53,14 +53,14 @@ void add_errors(AlgorithmSummary& summary, const std::vector<Outcome>& outcomes)
       re_success.push_back(outcome.error.rotation_deg);
     }
   }
-  const auto median = [](const std::vector<double>& values) { return quantile(values, 0.5); };
-  summary.te_m = spread_of(te);
-  summary.re_deg = spread_of(re);
-  summary.te_success_m = spread_of(te_success);
-  summary.re_success_deg = spread_of(re_success);
+  const auto median = [](const std::vector<double>& values) { return statistics::quantile(values, 0.5); };
+  summary.te_m = statistics::spread_of(te);
+  summary.re_deg = statistics::spread_of(re);
+  summary.te_success_m = statistics::spread_of(te_success);
+  summary.re_success_deg = statistics::spread_of(re_success);
   constexpr std::size_t kRepeats = 200;
-  summary.te_median_interval_m = bootstrap_interval(te, median, kRepeats);
-  summary.re_median_interval_deg = bootstrap_interval(re, median, kRepeats);
+  summary.te_median_interval_m = statistics::bootstrap_interval(te, median, kRepeats);
+  summary.re_median_interval_deg = statistics::bootstrap_interval(re, median, kRepeats);
 }
 
 /// Collects named values in the order in which the names are first seen.
@@ -97,7 +97,7 @@ void add_times(AlgorithmSummary& summary, const std::vector<Outcome>& outcomes) 
     if (!std::isnan(outcome.answer.total_seconds)) {
       total.push_back(outcome.answer.total_seconds);
     }
-    for (const StageTime& stage : outcome.answer.timings) {
+    for (const registration::StageTime& stage : outcome.answer.timings) {
       stages.add(stage.stage, stage.seconds);
     }
     if (!outcome.negative) {
@@ -106,10 +106,10 @@ void add_times(AlgorithmSummary& summary, const std::vector<Outcome>& outcomes) 
       }
     }
   }
-  summary.paper_seconds = spread_of(paper);
-  summary.total_seconds = spread_of(total);
-  summary.stage_medians_s = stages.reduced([](const std::vector<double>& v) { return quantile(v, 0.5); });
-  summary.number_means = numbers.reduced([](const std::vector<double>& v) { return spread_of(v).mean; });
+  summary.paper_seconds = statistics::spread_of(paper);
+  summary.total_seconds = statistics::spread_of(total);
+  summary.stage_medians_s = stages.reduced([](const std::vector<double>& v) { return statistics::quantile(v, 0.5); });
+  summary.number_means = numbers.reduced([](const std::vector<double>& v) { return statistics::spread_of(v).mean; });
 }
 
 void add_counts(AlgorithmSummary& summary, const std::vector<Outcome>& outcomes) {
@@ -126,12 +126,12 @@ void add_counts(AlgorithmSummary& summary, const std::vector<Outcome>& outcomes)
     summary.answered_wrong += answered && !outcome.success ? 1 : 0;
     summary.failed += outcome.answer.has_motion() ? 0 : 1;
   }
-  summary.recall_interval = wilson_interval(summary.successes, summary.pairs);
-  summary.false_accept_interval = wilson_interval(summary.false_accepts, summary.negatives);
+  summary.recall_interval = statistics::wilson_interval(summary.successes, summary.pairs);
+  summary.false_accept_interval = statistics::wilson_interval(summary.false_accepts, summary.negatives);
 }
 
 void add_calibration(AlgorithmSummary& summary, const std::vector<Outcome>& outcomes) {
-  std::vector<Judged> judged;
+  std::vector<statistics::Judged> judged;
   bool probabilities = true;
   for (const Outcome& outcome : outcomes) {
     const double p = outcome.answer.p_correct;
@@ -142,12 +142,12 @@ void add_calibration(AlgorithmSummary& summary, const std::vector<Outcome>& outc
   }
   summary.has_scores = !judged.empty();
   if (summary.has_scores) {
-    summary.precision_recall = precision_recall(judged, summary.pairs);
-    summary.average_precision = average_precision(summary.precision_recall);
+    summary.precision_recall = statistics::precision_recall(judged, summary.pairs);
+    summary.average_precision = statistics::average_precision(summary.precision_recall);
   }
   if (summary.has_scores && probabilities) {
-    summary.reliability = reliability_table(judged);
-    summary.calibration_error = expected_calibration_error(summary.reliability);
+    summary.reliability = statistics::reliability_table(judged);
+    summary.calibration_error = statistics::expected_calibration_error(summary.reliability);
   }
 }
 
@@ -196,7 +196,7 @@ PairedTest paired_test(const std::vector<Outcome>& outcomes, const std::string& 
                                        : (outcome.success ? test.only_second : test.neither);
     ++count;
   }
-  test.p_value = mcnemar_p_value(test.only_first, test.only_second);
+  test.p_value = statistics::mcnemar_p_value(test.only_first, test.only_second);
   return test;
 }
 
@@ -210,4 +210,4 @@ std::vector<PairedTest> paired_tests(const std::vector<Outcome>& outcomes, const
   return tests;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -5,21 +5,21 @@
 
 #include "outcome_json.hpp"
 
-namespace loopmark::detail {
+namespace loopmark::evaluation::internal {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json spread(const Spread& s) {
+Json spread(const statistics::Spread& s) {
   return {{"mean", number(s.mean)}, {"median", number(s.median)}, {"p95", number(s.p95)}};
 }
 
 Json bins(const std::vector<RecallBin>& table) {
   Json rows = Json::array();
   for (const RecallBin& bin : table) {
-    const Interval interval = wilson_interval(bin.successes, bin.pairs);
+    const statistics::Interval interval = statistics::wilson_interval(bin.successes, bin.pairs);
     rows.push_back({{"low", bin.low},
                     {"high", bin.high},
                     {"pairs", bin.pairs},
@@ -50,7 +50,7 @@ void add_certainty(Json& json, const AlgorithmSummary& s) {
   json["average_precision"] = s.has_scores ? number(s.average_precision) : Json(nullptr);
   json["expected_calibration_error"] = s.reliability.empty() ? Json(nullptr) : number(s.calibration_error);
   Json rows = Json::array();
-  for (const ReliabilityBin& bin : s.reliability) {
+  for (const statistics::ReliabilityBin& bin : s.reliability) {
     rows.push_back({{"low", bin.low},
                     {"high", bin.high},
                     {"count", bin.count},
@@ -121,4 +121,4 @@ std::string summary_to_json(const Experiment& experiment, const std::vector<Algo
   return json.dump(2) + '\n';
 }
 
-}  // namespace loopmark::detail
+}  // namespace loopmark::evaluation::internal

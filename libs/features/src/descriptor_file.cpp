@@ -8,11 +8,11 @@
 #include <string>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 #include "npy.hpp"
 #include "zip_archive.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
 constexpr std::array kDescriptorNames = {"feature", "features", "descriptors", "descs"};
@@ -26,7 +26,8 @@ std::string listed(const std::map<std::string, std::string>& members) {
   return names.empty() ? "nothing" : names;
 }
 
-DescriptorFile joined(const DescriptorMatrix& points, DescriptorMatrix descriptors, const std::string& file) {
+DescriptorFile joined(const search::DescriptorMatrix& points, search::DescriptorMatrix descriptors,
+                      const std::string& file) {
   if (points.cols() != 3) {
     throw InputError(file, "points", "have " + std::to_string(points.cols()) + " columns instead of 3");
   }
@@ -47,12 +48,12 @@ DescriptorFile joined(const DescriptorMatrix& points, DescriptorMatrix descripto
 
 DescriptorFile read_descriptors(const std::filesystem::path& npz) {
   const std::string file = npz.string();
-  const std::map<std::string, std::string> members = unzip(read_file(npz), file);
-  const auto array = [&](const std::string& name) -> std::optional<DescriptorMatrix> {
+  const std::map<std::string, std::string> members = internal::unzip(storage::read_file(npz), file);
+  const auto array = [&](const std::string& name) -> std::optional<search::DescriptorMatrix> {
     const auto found = members.find(name + ".npy");
-    return found == members.end() ? std::nullopt : std::optional(parse_npy(found->second, file, name));
+    return found == members.end() ? std::nullopt : std::optional(internal::parse_npy(found->second, file, name));
   };
-  std::optional<DescriptorMatrix> descriptors;
+  std::optional<search::DescriptorMatrix> descriptors;
   for (const char* name : kDescriptorNames) {
     descriptors = descriptors ? descriptors : array(name);
   }
@@ -61,9 +62,9 @@ DescriptorFile read_descriptors(const std::filesystem::path& npz) {
                      "name it \"features\", shape (points, dimension)");
   }
   // FCGF stores the raw cloud as "points" beside the downsampled one: the array with as many rows is meant.
-  std::optional<DescriptorMatrix> points;
+  std::optional<search::DescriptorMatrix> points;
   for (const char* name : kPointNames) {
-    std::optional<DescriptorMatrix> candidate = array(name);
+    std::optional<search::DescriptorMatrix> candidate = array(name);
     const bool fits = candidate && candidate->cols() == 3 && candidate->rows() == descriptors->rows();
     points = fits || !points ? (candidate ? candidate : points) : points;
     if (fits) {
@@ -78,9 +79,10 @@ DescriptorFile read_descriptors(const std::filesystem::path& npz) {
 }
 
 DescriptorFile read_descriptors(const std::filesystem::path& descriptors_npy, const std::filesystem::path& points_npy) {
-  DescriptorMatrix descriptors = parse_npy(read_file(descriptors_npy), descriptors_npy.string(), "");
-  return joined(parse_npy(read_file(points_npy), points_npy.string(), ""), std::move(descriptors),
+  search::DescriptorMatrix descriptors =
+      internal::parse_npy(storage::read_file(descriptors_npy), descriptors_npy.string(), "");
+  return joined(internal::parse_npy(storage::read_file(points_npy), points_npy.string(), ""), std::move(descriptors),
                 descriptors_npy.string());
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::features

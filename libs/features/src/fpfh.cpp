@@ -11,12 +11,12 @@
 #include "loopmark/core/parallel.hpp"
 #include "neighbourhood.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
-using kernels::kFpfhBins;
-using kernels::kFpfhRow;
-using kernels::kLanes;
+using internal::kFpfhBins;
+using internal::kFpfhRow;
+using internal::kLanes;
 
 constexpr std::size_t kCellsPerTask = 16;
 
@@ -29,12 +29,12 @@ struct NeighbourLists {
 
 /// Reused memory of one task.
 struct Workspace {
-  Neighbourhood around;
+  internal::Neighbourhood around;
   std::vector<float> squared;                ///< of the candidates
   std::array<std::vector<float>, 7> arrays;  ///< x y z nx ny nz d2 of the neighbours
   std::array<std::vector<std::uint8_t>, 3> bins;
   void resize(std::size_t count) {
-    const std::size_t padded = (count + kLanes) / kLanes * kLanes;
+    const std::size_t padded = (count + internal::kLanes) / internal::kLanes * internal::kLanes;
     squared.resize(padded);
     for (auto& array : arrays) {
       array.resize(padded, 1.0F);
@@ -47,10 +47,10 @@ struct Workspace {
 
 /// Points and normals in the order of the grid.
 struct Cloud {
-  const CellGrid& grid;
+  const search::CellGrid& grid;
   std::vector<float> nx, ny, nz;
 
-  Cloud(const CellGrid& cells, const std::vector<Eigen::Vector3f>& normals) : grid(cells) {
+  Cloud(const search::CellGrid& cells, const std::vector<Eigen::Vector3f>& normals) : grid(cells) {
     for (const std::uint32_t i : grid.index()) {
       nx.push_back(normals[i].x());
       ny.push_back(normals[i].y());
@@ -63,9 +63,9 @@ struct Cloud {
 std::size_t pick_neighbours(const Cloud& cloud, std::uint32_t i, float squared_radius, Workspace& work,
                             NeighbourLists& lists) {
   const float q[3] = {cloud.grid.x()[i], cloud.grid.y()[i], cloud.grid.z()[i]};
-  const Neighbourhood& around = work.around;
-  kernels::squared_distances(around.x.data(), around.y.data(), around.z.data(), around.x.size(), q,
-                             work.squared.data());
+  const internal::Neighbourhood& around = work.around;
+  internal::squared_distances(around.x.data(), around.y.data(), around.z.data(), around.x.size(), q,
+                              work.squared.data());
   const std::size_t first = lists.place.size();
   lists.place.resize(first + around.count);
   lists.squared.resize(first + around.count);
@@ -99,25 +99,25 @@ void fill_spfh(const Cloud& cloud, std::uint32_t i, std::size_t neighbours, Work
     return;
   }
   const auto& a = work.arrays;
-  const kernels::OrientedPoint point{{cloud.grid.x()[i], cloud.grid.y()[i], cloud.grid.z()[i]},
-                                     {cloud.nx[i], cloud.ny[i], cloud.nz[i]}};
-  const kernels::NeighbourArrays to{a[0].data(), a[1].data(), a[2].data(), a[3].data(),
-                                    a[4].data(), a[5].data(), a[6].data()};
-  const std::size_t padded = (neighbours + kLanes - 1) / kLanes * kLanes;
-  kernels::pair_bins(point, to, padded, work.bins[0].data(), work.bins[1].data(), work.bins[2].data());
+  const internal::OrientedPoint point{{cloud.grid.x()[i], cloud.grid.y()[i], cloud.grid.z()[i]},
+                                      {cloud.nx[i], cloud.ny[i], cloud.nz[i]}};
+  const internal::NeighbourArrays to{a[0].data(), a[1].data(), a[2].data(), a[3].data(),
+                                     a[4].data(), a[5].data(), a[6].data()};
+  const std::size_t padded = (neighbours + internal::kLanes - 1) / internal::kLanes * internal::kLanes;
+  internal::pair_bins(point, to, padded, work.bins[0].data(), work.bins[1].data(), work.bins[2].data());
   // Two copies: neighbours often fall into the same bin, and an increment must not wait for the one before.
-  std::uint32_t counts[2][3][kFpfhBins + 1] = {};
+  std::uint32_t counts[2][3][internal::kFpfhBins + 1] = {};
   for (std::size_t k = 0; k < neighbours; ++k) {
     auto& copy = counts[k & 1U];
     ++copy[0][work.bins[0][k]];
     ++copy[1][work.bins[1][k]];
     ++copy[2][work.bins[2][k]];
   }
-  const auto valid = neighbours - counts[0][0][kernels::kNoBin] - counts[1][0][kernels::kNoBin];
+  const auto valid = neighbours - counts[0][0][internal::kNoBin] - counts[1][0][internal::kNoBin];
   const float share = 100.0F / static_cast<float>(std::max<std::size_t>(1, valid));
   for (std::size_t h = 0; h < 3; ++h) {
-    for (std::size_t b = 0; b < kFpfhBins; ++b) {
-      row[h * kFpfhBins + b] = share * static_cast<float>(counts[0][h][b] + counts[1][h][b]);
+    for (std::size_t b = 0; b < internal::kFpfhBins; ++b) {
+      row[h * internal::kFpfhBins + b] = share * static_cast<float>(counts[0][h][b] + counts[1][h][b]);
     }
   }
 }
@@ -134,7 +134,7 @@ std::vector<NeighbourLists> simplified_histograms(const Cloud& cloud, float radi
       work.resize(work.around.count);
       for (std::uint32_t i = cells[c].run.begin; i < cells[c].run.end; ++i) {
         const std::size_t n = pick_neighbours(cloud, i, radius * radius, work, lists);
-        fill_spfh(cloud, i, n, work, rows.data() + kFpfhRow * i);
+        fill_spfh(cloud, i, n, work, rows.data() + internal::kFpfhRow * i);
         lists.end.push_back(lists.place.size());
       }
     }
@@ -150,28 +150,29 @@ void weigh_neighbours(const std::vector<float>& rows, const NeighbourLists& list
   for (std::size_t k = begin; k < end; ++k) {
     weights[k - begin] = 1.0F / lists.squared[k];
   }
-  std::array<float, kFpfhRow> sum{};
-  kernels::weighted_sum(rows.data(), lists.place.data() + begin, weights.data(), end - begin, sum.data());
+  std::array<float, internal::kFpfhRow> sum{};
+  internal::weighted_sum(rows.data(), lists.place.data() + begin, weights.data(), end - begin, sum.data());
   for (std::size_t h = 0; h < 3; ++h) {
-    const auto first = sum.begin() + static_cast<std::ptrdiff_t>(h * kFpfhBins);
-    const float total = std::accumulate(first, first + kFpfhBins, 0.0F);
+    const auto first = sum.begin() + static_cast<std::ptrdiff_t>(h * internal::kFpfhBins);
+    const float total = std::accumulate(first, first + internal::kFpfhBins, 0.0F);
     const float scale = total > 0.0F ? 100.0F / total : 0.0F;
-    std::transform(first, first + kFpfhBins, out + h * kFpfhBins, [scale](float v) { return v * scale; });
+    std::transform(first, first + internal::kFpfhBins, out + h * internal::kFpfhBins,
+                   [scale](float v) { return v * scale; });
   }
 }
 
 }  // namespace
 
-DescriptorMatrix fpfh(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
-                      const FpfhOptions& options, const std::vector<std::size_t>& wanted) {
+search::DescriptorMatrix fpfh(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+                              const FpfhOptions& options, const std::vector<std::size_t>& wanted) {
   check(options);
   if (normals.size() != points.size()) {
     throw std::invalid_argument("fpfh: as many normals as points are needed");
   }
   const auto radius = static_cast<float>(options.radius_m);
-  const CellGrid grid(points, radius * 1.0001F);
+  const search::CellGrid grid(points, radius * 1.0001F);
   const Cloud cloud(grid, normals);
-  std::vector<float> rows(kFpfhRow * grid.size(), 0.0F);
+  std::vector<float> rows(internal::kFpfhRow * grid.size(), 0.0F);
   const std::vector<NeighbourLists> tasks = simplified_histograms(cloud, radius, rows);
 
   constexpr std::size_t kUnwanted = static_cast<std::size_t>(-1);
@@ -182,8 +183,8 @@ DescriptorMatrix fpfh(const std::vector<Eigen::Vector3f>& points, const std::vec
   for (std::size_t r = 0; r < wanted.size(); ++r) {
     row_of.at(wanted[r]) = r;
   }
-  DescriptorMatrix out =
-      DescriptorMatrix::Zero(static_cast<Eigen::Index>(wanted.empty() ? points.size() : wanted.size()), kFpfhDimension);
+  search::DescriptorMatrix out = search::DescriptorMatrix::Zero(
+      static_cast<Eigen::Index>(wanted.empty() ? points.size() : wanted.size()), kFpfhDimension);
   parallel_for(tasks.size(), [&](std::size_t t) {
     std::vector<float> weights;
     std::uint32_t i = grid.cells()[t * kCellsPerTask].run.begin;
@@ -200,4 +201,4 @@ DescriptorMatrix fpfh(const std::vector<Eigen::Vector3f>& points, const std::vec
   return out;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::features

@@ -7,7 +7,7 @@
 
 #include "loopmark/core/dispatch.hpp"
 
-namespace loopmark::kernels {
+namespace loopmark::features::internal {
 namespace {
 
 constexpr float kPi = 3.14159265358979F;
@@ -113,4 +113,4 @@ void weighted_sum(const float* rows, const std::uint32_t* row, const float* weig
   out[4] = s4;
 }
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::features::internal

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace loopmark::kernels {
+namespace loopmark::features::internal {
 
 constexpr std::size_t kFpfhBins = 11;
 /// Floats of one padded histogram row: 33 bins and zeros.
@@ -36,4 +36,4 @@ void pair_bins(const OrientedPoint& point, const NeighbourArrays& to, std::size_
 void weighted_sum(const float* rows, const std::uint32_t* row, const float* weight, std::size_t count,
                   float sum[kFpfhRow]);
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::features::internal

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
 using Cell = std::pair<long, long>;
@@ -59,4 +59,4 @@ std::vector<bool> ground_points(const std::vector<Eigen::Vector3f>& points, cons
   return ground;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::features

@@ -8,7 +8,7 @@
 #include "loopmark/search/cell_grid.hpp"
 #include "normal_kernels.hpp"
 
-namespace loopmark {
+namespace loopmark::features::internal {
 
 /// The points of the 27 cells around a cell, copied side by side and filled up to whole lanes: what all the points of
 /// the cell have to look at.
@@ -17,19 +17,19 @@ struct Neighbourhood {
   std::vector<std::uint32_t> place;  ///< in the grid; only `count` of them
   std::size_t count = 0;
 
-  void gather(const CellGrid& grid, const CellGrid::Cell& cell) {
+  void gather(const search::CellGrid& grid, const search::CellGrid::Cell& cell) {
     grid.runs_around(cell, runs_);
     count = 0;
-    for (const CellGrid::Run& run : runs_) {
+    for (const search::CellGrid::Run& run : runs_) {
       count += run.end - run.begin;
     }
-    const std::size_t padded = (count + kernels::kLanes - 1) / kernels::kLanes * kernels::kLanes;
-    x.assign(padded, kernels::kFarAway);
-    y.assign(padded, kernels::kFarAway);
-    z.assign(padded, kernels::kFarAway);
+    const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
+    x.assign(padded, kFarAway);
+    y.assign(padded, kFarAway);
+    z.assign(padded, kFarAway);
     place.resize(count);
     std::size_t k = 0;
-    for (const CellGrid::Run& run : runs_) {
+    for (const search::CellGrid::Run& run : runs_) {
       for (std::uint32_t i = run.begin; i < run.end; ++i, ++k) {
         x[k] = grid.x()[i];
         y[k] = grid.y()[i];
@@ -40,7 +40,7 @@ struct Neighbourhood {
   }
 
  private:
-  std::vector<CellGrid::Run> runs_;
+  std::vector<search::CellGrid::Run> runs_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::features::internal

@@ -4,7 +4,7 @@
 
 #include "loopmark/core/dispatch.hpp"
 
-namespace loopmark::kernels {
+namespace loopmark::features::internal {
 namespace {
 
 LOOPMARK_DISPATCH
@@ -48,4 +48,4 @@ Moments moments_within(const float* x, const float* y, const float* z, std::size
   return moments;
 }
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::features::internal

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace loopmark::kernels {
+namespace loopmark::features::internal {
 
 /// Candidates come in multiples of this many; what fills up the last is far away.
 constexpr std::size_t kLanes = 16;
@@ -17,4 +17,4 @@ using Moments = std::array<float, 10>;
 Moments moments_within(const float* x, const float* y, const float* z, std::size_t count, float qx, float qy, float qz,
                        float squared_radius);
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::features::internal

@@ -9,13 +9,13 @@
 #include "loopmark/search/kd_tree.hpp"
 #include "neighbourhood.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 namespace {
 
 constexpr std::size_t kCellsPerTask = 64;
 constexpr std::size_t kPointsPerTask = 256;
 
-void set_normal(const kernels::Moments& m, const Eigen::Vector3f& point, const Eigen::Vector3f& sensor,
+void set_normal(const internal::Moments& m, const Eigen::Vector3f& point, const Eigen::Vector3f& sensor,
                 const NormalOptions& options, std::size_t i, Normals& normals) {
   const double n = m[0];
   if (n < static_cast<double>(options.min_neighbours)) {
@@ -40,17 +40,17 @@ void set_normal(const kernels::Moments& m, const Eigen::Vector3f& point, const E
 void by_radius(const std::vector<Eigen::Vector3f>& points, const NormalOptions& options, const Eigen::Vector3f& sensor,
                Normals& normals) {
   const auto radius = static_cast<float>(options.radius_m);
-  const CellGrid grid(points, radius * 1.0001F);
+  const search::CellGrid grid(points, radius * 1.0001F);
   parallel_blocks(grid.cells().size(), kCellsPerTask, [&](std::size_t begin, std::size_t end) {
-    Neighbourhood around;
+    internal::Neighbourhood around;
     for (std::size_t c = begin; c < end; ++c) {
-      const CellGrid::Cell& cell = grid.cells()[c];
+      const search::CellGrid::Cell& cell = grid.cells()[c];
       around.gather(grid, cell);
       for (std::uint32_t i = cell.run.begin; i < cell.run.end; ++i) {
         const Eigen::Vector3f point = grid.point(i);
-        const kernels::Moments moments =
-            kernels::moments_within(around.x.data(), around.y.data(), around.z.data(), around.x.size(), point.x(),
-                                    point.y(), point.z(), radius * radius);
+        const internal::Moments moments =
+            internal::moments_within(around.x.data(), around.y.data(), around.z.data(), around.x.size(), point.x(),
+                                     point.y(), point.z(), radius * radius);
         set_normal(moments, point, sensor, options, grid.index()[i], normals);
       }
     }
@@ -67,23 +67,23 @@ void by_count(const std::vector<Eigen::Vector3f>& points, const NormalOptions& o
       original.push_back(i);
     }
   }
-  const KdTree tree(finite);
+  const search::KdTree tree(finite);
   parallel_for(
       finite.size(),
       [&](std::size_t i) {
-        kernels::Moments m{};
-        for (const Neighbour& neighbour : tree.k_nearest(finite[i], options.neighbours)) {
+        internal::Moments m{};
+        for (const search::Neighbour& neighbour : tree.k_nearest(finite[i], options.neighbours)) {
           const Eigen::Vector3f d = finite[neighbour.index] - finite[i];
-          const kernels::Moments one{1,
-                                     d.x(),
-                                     d.y(),
-                                     d.z(),
-                                     d.x() * d.x(),
-                                     d.x() * d.y(),
-                                     d.x() * d.z(),
-                                     d.y() * d.y(),
-                                     d.y() * d.z(),
-                                     d.z() * d.z()};
+          const internal::Moments one{1,
+                                      d.x(),
+                                      d.y(),
+                                      d.z(),
+                                      d.x() * d.x(),
+                                      d.x() * d.y(),
+                                      d.x() * d.z(),
+                                      d.y() * d.y(),
+                                      d.y() * d.z(),
+                                      d.z() * d.z()};
           for (std::size_t k = 0; k < m.size(); ++k) {
             m[k] += one[k];
           }
@@ -109,4 +109,4 @@ Normals estimate_normals(const std::vector<Eigen::Vector3f>& points, const Norma
   return normals;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::features

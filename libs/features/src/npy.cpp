@@ -9,7 +9,7 @@
 
 #include "loopmark/core/error.hpp"
 
-namespace loopmark {
+namespace loopmark::features::internal {
 namespace {
 
 struct Header {
@@ -71,7 +71,7 @@ Header parse_header(std::string_view bytes, const Complaint& fail) {
 }
 
 template <class Number>
-void convert(std::string_view bytes, const Header& header, DescriptorMatrix& out) {
+void convert(std::string_view bytes, const Header& header, search::DescriptorMatrix& out) {
   for (Eigen::Index r = 0; r < header.rows; ++r) {
     for (Eigen::Index c = 0; c < header.columns; ++c) {
       const auto k = static_cast<std::size_t>(header.fortran ? c * header.rows + r : r * header.columns + c);
@@ -84,7 +84,7 @@ void convert(std::string_view bytes, const Header& header, DescriptorMatrix& out
 
 }  // namespace
 
-DescriptorMatrix parse_npy(std::string_view bytes, const std::string& file, const std::string& place) {
+search::DescriptorMatrix parse_npy(std::string_view bytes, const std::string& file, const std::string& place) {
   const Complaint fail{file, place};
   const Header header = parse_header(bytes, fail);
   const auto available = (bytes.size() - header.data) / std::max<std::size_t>(1, header.item_bytes);
@@ -92,7 +92,7 @@ DescriptorMatrix parse_npy(std::string_view bytes, const std::string& file, cons
   if (wanted > available) {
     fail("the array is cut off: " + std::to_string(available) + " of " + std::to_string(wanted) + " numbers");
   }
-  DescriptorMatrix out(header.rows, header.columns);
+  search::DescriptorMatrix out(header.rows, header.columns);
   const std::string type = std::string(1, header.kind) + std::to_string(header.item_bytes);
   if (type == "f4") {
     convert<float>(bytes, header, out);
@@ -112,4 +112,4 @@ DescriptorMatrix parse_npy(std::string_view bytes, const std::string& file, cons
   return out;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::features::internal

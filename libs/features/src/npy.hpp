@@ -7,10 +7,10 @@
 
 #include "loopmark/search/descriptor_matrix.hpp"
 
-namespace loopmark {
+namespace loopmark::features::internal {
 
 /// A two-dimensional NumPy array of numbers (format versions 1 to 3, C or Fortran order, float16/32/64 or integers) as
 /// floats. Throws InputError naming `file` and `place`.
-DescriptorMatrix parse_npy(std::string_view bytes, const std::string& file, const std::string& place);
+search::DescriptorMatrix parse_npy(std::string_view bytes, const std::string& file, const std::string& place);
 
-}  // namespace loopmark
+}  // namespace loopmark::features::internal

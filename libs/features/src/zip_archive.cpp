@@ -9,9 +9,9 @@
 #include <type_traits>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 
-namespace loopmark {
+namespace loopmark::features::internal {
 namespace {
 
 constexpr std::uint64_t kLargest = std::uint64_t{1} << 32U;  // 4 GiB: no descriptor file is larger
@@ -107,7 +107,7 @@ std::string extract(const Bytes& bytes, const Member& member, const std::string&
     throw InputError(file, member.name, "packed by a method other than deflate", kRemedy);
   }
   std::string content = member.method == 0 ? std::string(packed) : inflate_member(packed, member, file);
-  if (crc32(content) != member.crc) {
+  if (storage::crc32(content) != member.crc) {
     throw InputError(file, member.name, "the checksum does not fit: the file is damaged", kRemedy);
   }
   return content;
@@ -142,4 +142,4 @@ std::map<std::string, std::string> unzip(std::string_view content, const std::st
   return members;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::features::internal

@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace loopmark {
+namespace loopmark::features::internal {
 
 /// The members of a ZIP archive (stored or deflated), by name. Throws InputError naming `file` and the member.
 std::map<std::string, std::string> unzip(std::string_view bytes, const std::string& file);
 
-}  // namespace loopmark
+}  // namespace loopmark::features::internal

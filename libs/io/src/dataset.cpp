@@ -10,7 +10,7 @@
 
 #include "dataset_layouts.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace fs = std::filesystem;
 
 /// A drive, opened when it is first asked for.
@@ -124,4 +124,4 @@ std::unique_ptr<Dataset> open_dataset(const fs::path& root, const fs::path& sess
                    "known are " + known);
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -7,8 +7,8 @@
 
 #include "dataset_layouts.hpp"
 #include "layout_parts.hpp"
-#include "loopmark/core/files.hpp"
-#include "text.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/text/text.hpp"
 
 namespace loopmark::io {
 namespace fs = std::filesystem;
@@ -69,7 +69,7 @@ fs::path apollo_drive(const fs::path& root, const std::string& drive) {
       return base / drive;
     }
   }
-  for (const fs::path& area : list_folders(root)) {
+  for (const fs::path& area : internal::list_folders(root)) {
     for (const char* const below : {"", "Apollo-SouthBay", "Apollo-SourthBay"}) {
       if (is_folder(area / below / drive)) {
         return area / below / drive;
@@ -80,7 +80,7 @@ fs::path apollo_drive(const fs::path& root, const std::string& drive) {
 }
 
 std::vector<fs::path> folders_and_rawlogs(const fs::path& root) {
-  std::vector<fs::path> places = list_folders(root);
+  std::vector<fs::path> places = internal::list_folders(root);
   std::error_code error;
   for (fs::directory_iterator it(root, error), end; !error && it != end; it.increment(error)) {
     if (it->path().extension() == ".rawlog") {
@@ -88,7 +88,7 @@ std::vector<fs::path> folders_and_rawlogs(const fs::path& root) {
     }
   }
   std::sort(places.begin(), places.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
+    return text::natural_less(a.filename().string(), b.filename().string());
   });
   return places;
 }
@@ -102,7 +102,7 @@ bool looks_like_log(const fs::path& path, const LogOptions& options) {
     return open_log(path, options) != nullptr;
   } catch (const InputError& error) {
     return std::string(error.what()).find("no drive log found") == std::string::npos &&
-           !list_point_files(path / "velodyne").empty();
+           !internal::list_point_files(path / "velodyne").empty();
   }
 }
 
@@ -114,9 +114,9 @@ std::optional<Parts> find_kitti_odometry(const fs::path& root, const DatasetOpti
                            "KITTI odometry: clouds in the frame of the Velodyne, motion-compensated, 10 Hz, frames "
                            "from 0, session = sequence",
                            root, options);
-    for (const fs::path& drive : list_folders(folder)) {
+    for (const fs::path& drive : internal::list_folders(folder)) {
       const std::string name = drive.filename().string();
-      if (const auto number = parse_whole(name); number && name.size() == 2 && is_folder(drive / "velodyne")) {
+      if (const auto number = text::parse_whole(name); number && name.size() == 2 && is_folder(drive / "velodyne")) {
         parts.sessions.push_back({static_cast<int>(*number), name, drive, true});
       }
     }
@@ -133,9 +133,9 @@ std::optional<Parts> find_kitti_raw(const fs::path& root, const DatasetOptions& 
                "KITTI raw: clouds in the frame of the Velodyne, not motion-compensated, 10 Hz, frames from 0, "
                "sessions in order of the drives' names",
                root, options);
-  std::vector<fs::path> places = list_folders(root);  // the drives, or the dates with the drives
-  for (const fs::path& date : list_folders(root)) {
-    const auto drives = list_folders(date);
+  std::vector<fs::path> places = internal::list_folders(root);  // the drives, or the dates with the drives
+  for (const fs::path& date : internal::list_folders(root)) {
+    const auto drives = internal::list_folders(date);
     places.insert(places.end(), drives.begin(), drives.end());
   }
   for (const fs::path& drive : places) {
@@ -166,7 +166,7 @@ std::optional<Parts> find_mulran(const fs::path& root, const DatasetOptions& opt
                          "MulRan: clouds in the frame of the Ouster, 10 Hz, frames from 0 in order of time, sessions "
                          "in order of the drives' names",
                          root, options);
-  for (const fs::path& drive : list_folders(root)) {
+  for (const fs::path& drive : internal::list_folders(root)) {
     if (is_folder(drive / "Ouster") || is_folder(drive / "sensor_data" / "Ouster")) {
       parts.sessions.push_back({static_cast<int>(parts.sessions.size()), drive.filename().string(), drive, true});
     }
@@ -196,16 +196,16 @@ std::optional<Parts> find_logs(const fs::path& root, const DatasetOptions& optio
 Parts logs_of_sessions_file(const fs::path& root, const fs::path& file, const DatasetOptions& options) {
   Parts parts = parts_of("logs", "drive logs named by " + file.string() + ", frames by the numbers of their files",
                          root, options);
-  const std::string text = read_file(file);
+  const std::string text = storage::read_file(file);
   std::map<int, std::size_t> seen;
   std::size_t line_number = 0;
-  for (const std::string_view line : split_lines(text)) {
+  for (const std::string_view line : text::split_lines(text)) {
     ++line_number;
-    const auto words = split_words(line);
+    const auto words = text::split_words(line);
     if (words.empty() || words[0].front() == '#') {
       continue;
     }
-    const auto number = parse_whole(words[0]);
+    const auto number = text::parse_whole(words[0]);
     if (!number && line_number == 1) {
       continue;  // the header
     }

@@ -10,7 +10,7 @@
 
 #include "loopmark/io/dataset.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 
 /// What a layout knows of its drives before any is opened.
 struct Dataset::Parts {
@@ -20,8 +20,6 @@ struct Dataset::Parts {
   std::vector<SessionInfo> sessions;
   std::function<std::unique_ptr<DriveLog>(const SessionInfo&)> open;
 };
-
-namespace io {
 
 /// Each returns nothing when the root does not look like its layout.
 std::optional<Dataset::Parts> find_nuscenes(const std::filesystem::path& root, const DatasetOptions& options);
@@ -35,5 +33,4 @@ std::optional<Dataset::Parts> find_logs(const std::filesystem::path& root, const
 Dataset::Parts logs_of_sessions_file(const std::filesystem::path& root, const std::filesystem::path& file,
                                      const DatasetOptions& options);
 
-}  // namespace io
-}  // namespace loopmark
+}  // namespace loopmark::io

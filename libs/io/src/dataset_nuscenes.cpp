@@ -80,13 +80,13 @@ class Tables {
     if (chain.empty()) {
       throw InputError((folder_ / "sample_data.json").string(), session.name, "no LIDAR_TOP sweep in this scene");
     }
-    return std::make_unique<FileLog>(log_parts(session, chain, std::move(files), options));
+    return std::make_unique<internal::FileLog>(log_parts(session, chain, std::move(files), options));
   }
 
  private:
-  FileLogParts log_parts(const SessionInfo& session, const std::vector<const Sweep*>& chain,
-                         std::vector<fs::path> files, const LogOptions& options) const {
-    FileLogParts parts = parts_of_files(std::move(files), session.path, options);
+  internal::FileLogParts log_parts(const SessionInfo& session, const std::vector<const Sweep*>& chain,
+                                   std::vector<fs::path> files, const LogOptions& options) const {
+    internal::FileLogParts parts = internal::parts_of_files(std::move(files), session.path, options);
     parts.info.format = "nuscenes";
     parts.info.path = session.path;
     parts.info.stamps_given = true;
@@ -148,7 +148,7 @@ class Tables {
 std::optional<std::string> version_of(const fs::path& root, const std::string& asked) {
   std::vector<std::string> found;
   std::error_code error;
-  for (const fs::path& folder : list_folders(root)) {
+  for (const fs::path& folder : internal::list_folders(root)) {
     const std::string name = folder.filename().string();
     if (name.starts_with("v1.0-") && fs::exists(folder / "scene.json", error)) {
       found.push_back(name);

@@ -8,7 +8,7 @@
 #include "loopmark/io/point_files.hpp"
 #include "point_times.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 
 void finish_reading(ScanReading& reading, const std::string& scan_name, const LogInfo& info,
                     const LogOptions& options) {
@@ -27,7 +27,7 @@ void finish_reading(ScanReading& reading, const std::string& scan_name, const Lo
   }
   reading.times_in_file = !cloud.time_offset_s.empty();
   if (!reading.times_in_file && info.sweep) {
-    cloud.time_offset_s = times_from_azimuth(cloud.points, *info.sweep);
+    cloud.time_offset_s = cloud::times_from_azimuth(cloud.points, *info.sweep);
     reading.times_rebuilt = true;
   }
 }
@@ -45,4 +45,4 @@ ScanReading FileLog::read_closely(std::size_t index) const {
   return reading;
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -8,7 +8,7 @@
 
 #include "loopmark/io/drive_log.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 
 /// All that a FileLog knows; `stamps_s` and `frame_numbers` are as long as `files`, `truth` too or empty.
 struct FileLogParts {
@@ -43,4 +43,4 @@ class FileLog : public DriveLog {
 /// get them where the log says how its sensor sweeps. Throws DamagedScan.
 void finish_reading(ScanReading& reading, const std::string& scan_name, const LogInfo& info, const LogOptions& options);
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -8,9 +8,9 @@
 
 #include "layout_parts.hpp"
 #include "layouts.hpp"
-#include "text.hpp"
+#include "loopmark/text/text.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace fs = std::filesystem;
 namespace {
 
@@ -36,7 +36,7 @@ void take_mulran_truth(FileLogParts& parts, const fs::path& file) {
   std::vector<double> stamps;
   std::vector<Pose> poses;
   const Pose T_base_lidar = mulran_T_base_lidar();
-  for (const NumberRow& row : read_number_rows(file, ',')) {
+  for (const text::NumberRow& row : text::read_number_rows(file, ',')) {
     if (row.values.size() != 13) {
       throw_row(file, row.line, row.values.size(), 13);
     }
@@ -58,7 +58,7 @@ void take_apollo_truth(FileLogParts& parts, const fs::path& file) {
   std::vector<std::size_t> numbers;
   std::vector<double> stamps;
   std::vector<Pose> poses;
-  for (const NumberRow& row : read_number_rows(file)) {
+  for (const text::NumberRow& row : text::read_number_rows(file)) {
     const std::vector<double>& v = row.values;
     if (v.size() != 9) {
       throw_row(file, row.line, v.size(), 9);
@@ -116,4 +116,4 @@ LogPointer open_apollo(const fs::path& path, const LogOptions& options) {
   return std::make_unique<FileLog>(std::move(parts));
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

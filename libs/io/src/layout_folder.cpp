@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "layout_parts.hpp"
 #include "layouts.hpp"
-#include "loopmark/core/files.hpp"
-#include "text.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/text/text.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace fs = std::filesystem;
 namespace {
 
@@ -42,17 +42,17 @@ std::optional<Pose> read_calibration(const fs::path& file) {
   if (!fs::is_regular_file(file, error)) {
     return std::nullopt;
   }
-  const std::string text = read_file(file);
+  const std::string text = storage::read_file(file);
   std::size_t number = 0;
-  for (const std::string_view line : split_lines(text)) {
+  for (const std::string_view line : text::split_lines(text)) {
     ++number;
-    const auto words = split_words(line);
+    const auto words = text::split_words(line);
     if (words.empty() || (words[0] != "Tr:" && words[0] != "Tr_velo_to_cam:" && words[0] != "Tr_velo_cam:")) {
       continue;
     }
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     for (std::size_t k = 0; k < 12; ++k) {
-      const auto value = k + 1 < words.size() ? parse_number(words[k + 1]) : std::nullopt;
+      const auto value = k + 1 < words.size() ? text::parse_number(words[k + 1]) : std::nullopt;
       if (!value) {
         throw InputError(file.string(), std::to_string(number), "Tr needs 12 numbers");
       }
@@ -100,4 +100,4 @@ LogPointer open_folder(const fs::path& path, const LogOptions& options) {
   return std::make_unique<FileLog>(std::move(parts));
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

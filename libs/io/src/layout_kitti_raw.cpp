@@ -7,11 +7,11 @@
 
 #include "layout_parts.hpp"
 #include "layouts.hpp"
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/progress.hpp"
-#include "text.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/text/text.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace fs = std::filesystem;
 namespace {
 
@@ -22,13 +22,13 @@ std::optional<Pose> read_calibration(const fs::path& file) {
     return std::nullopt;
   }
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  const std::string text = read_file(file);
-  for (const std::string_view line : split_lines(text)) {
-    const auto words = split_words(line);
+  const std::string text = storage::read_file(file);
+  for (const std::string_view line : text::split_lines(text)) {
+    const auto words = text::split_words(line);
     const bool rotation = !words.empty() && words[0] == "R:" && words.size() == 10;
     const bool translation = !words.empty() && words[0] == "T:" && words.size() == 4;
     for (int k = 0; k < (rotation ? 9 : translation ? 3 : 0); ++k) {
-      const double value = parse_number(words[static_cast<std::size_t>(k) + 1]).value_or(std::nan(""));
+      const double value = text::parse_number(words[static_cast<std::size_t>(k) + 1]).value_or(std::nan(""));
       (rotation ? matrix(k / 3, k % 3) : matrix(k, 3)) = value;
     }
   }
@@ -65,7 +65,7 @@ void take_oxts(FileLogParts& parts, const fs::path& drive) {
   double scale = 0.0;
   for (const fs::path& scan : parts.files) {
     const fs::path file = drive / "oxts" / "data" / (scan.stem().string() + ".txt");
-    const auto rows = fs::is_regular_file(file, error) ? read_number_rows(file) : std::vector<NumberRow>{};
+    const auto rows = fs::is_regular_file(file, error) ? text::read_number_rows(file) : std::vector<text::NumberRow>{};
     if (!T_velo_imu || rows.size() != 1 || rows[0].values.size() < 6) {
       parts.info.truth_problem =
           (T_velo_imu ? file : calibration_file).string() + ": not there, or not as expected; poses are not used";
@@ -98,7 +98,7 @@ LogPointer open_kitti_raw(const fs::path& path, const LogOptions& options) {
     parts.info.path = path;
     parts.info.motion_compensated = false;
     if (!parts.info.sweep && options.rebuild_times == RebuildTimes::kAuto) {
-      parts.info.sweep = SweepModel{};
+      parts.info.sweep = cloud::SweepModel{};
     }
     take_stamps(parts, base / "timestamps.txt");
     take_truth(parts, drive / "poses.txt");
@@ -110,4 +110,4 @@ LogPointer open_kitti_raw(const fs::path& path, const LogOptions& options) {
   return nullptr;
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <map>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/trajectory.hpp"
-#include "text.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/text/text.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace fs = std::filesystem;
 namespace {
 
@@ -20,20 +20,20 @@ constexpr std::uint64_t kLargestFrame = 100'000'000;
 constexpr double kUsualStep_s = 0.1;  // where no two times rise
 
 bool by_name(const fs::path& a, const fs::path& b) {
-  return natural_less(a.filename().string(), b.filename().string());
+  return text::natural_less(a.filename().string(), b.filename().string());
 }
 
 /// The name without its known endings: "x.pcd.bin" -> "x".
 std::string stem_of(const fs::path& file) {
   fs::path stem = file.stem();
-  return lower_case(stem.extension().string()) == ".pcd" ? stem.stem().string() : stem.string();
+  return text::lower_case(stem.extension().string()) == ".pcd" ? stem.stem().string() : stem.string();
 }
 
 /// The numbers in the names when all are small whole numbers, else 0, 1, 2, ...
 std::vector<std::size_t> frame_numbers_of(const std::vector<fs::path>& files) {
   std::vector<std::size_t> numbers;
   for (const fs::path& file : files) {
-    const auto number = parse_whole(stem_of(file));
+    const auto number = text::parse_whole(stem_of(file));
     if (!number || *number > kLargestFrame || (!numbers.empty() && *number <= numbers.back())) {
       break;
     }
@@ -90,7 +90,7 @@ void take_sweep(FileLogParts& parts, const fs::path& base) {
     parts.info.sweep = hint.model;  // the points of a compensated scan need no times
   }
   if (parts.options.rebuild_times != RebuildTimes::kAuto) {
-    SweepModel model = hint.model.value_or(SweepModel{});
+    cloud::SweepModel model = hint.model.value_or(cloud::SweepModel{});
     model.clockwise = parts.options.rebuild_times == RebuildTimes::kClockwise;
     model.period_s = hint.model ? model.period_s : 1.0 / parts.options.rate_hz;
     parts.info.sweep = model;
@@ -128,8 +128,8 @@ std::size_t first_missing(const std::vector<std::size_t>& places) {
 }
 
 double stamp_of_line(std::string_view line, const fs::path& file, std::size_t number) {
-  const std::vector<std::string_view> words = split_words(line, ',');
-  std::optional<double> stamp = parse_number(words.front());
+  const std::vector<std::string_view> words = text::split_words(line, ',');
+  std::optional<double> stamp = text::parse_number(words.front());
   if (!stamp) {
     stamp = parse_date_time(line);
   }
@@ -142,7 +142,7 @@ double stamp_of_line(std::string_view line, const fs::path& file, std::size_t nu
 }  // namespace
 
 std::string point_file_kind(const fs::path& file) {
-  const std::string extension = lower_case(file.extension().string());
+  const std::string extension = text::lower_case(file.extension().string());
   return extension == ".bin" || extension == ".pcd" || extension == ".ply" ? extension.substr(1) : "";
 }
 
@@ -209,12 +209,12 @@ void take_stamps(FileLogParts& parts, const fs::path& file) {
   if (!fs::is_regular_file(file, error)) {
     return;
   }
-  const std::string text = read_file(file);
+  const std::string text = storage::read_file(file);
   std::vector<double> stamps;
   std::size_t number = 0;
-  for (const std::string_view line : split_lines(text)) {
+  for (const std::string_view line : text::split_lines(text)) {
     ++number;
-    if (!split_words(line).empty() && line.front() != '#') {
+    if (!text::split_words(line).empty() && line.front() != '#') {
       stamps.push_back(stamp_of_line(line, file, number));
     }
   }
@@ -227,13 +227,13 @@ void take_stamps(FileLogParts& parts, const fs::path& file) {
   for (std::size_t i = 0; i < rows->size(); ++i) {
     parts.stamps_s[i] = stamps[(*rows)[i]];
   }
-  parts.info.problem = mend_times(parts.stamps_s, file);
+  parts.info.problem = repair_timestamps(parts.stamps_s, file);
   parts.info.companions.push_back(file);
   parts.info.stamps_given = true;
   parts.info.stamps_source = file.filename().string();
 }
 
-std::string mend_times(std::vector<double>& stamps_s, const fs::path& file) {
+std::string repair_timestamps(std::vector<double>& stamps_s, const fs::path& file) {
   const std::vector<std::size_t> kept = longest_rise(stamps_s);
   if (kept.size() == stamps_s.size()) {
     return "";
@@ -331,14 +331,14 @@ std::optional<double> stamp_in_name(const fs::path& file) {
   if (const auto date = parse_date_time(stem)) {
     return date;
   }
-  if (const auto whole = parse_whole(stem)) {
+  if (const auto whole = text::parse_whole(stem)) {
     if (stem.size() < 16 || stem.size() > 19) {
       return std::nullopt;
     }
     return static_cast<double>(*whole) * (stem.size() >= 18 ? 1e-9 : 1e-6);
   }
-  const auto seconds = parse_number(stem);
+  const auto seconds = text::parse_number(stem);
   return seconds && *seconds > 1e8 && *seconds < 1e11 ? seconds : std::nullopt;
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

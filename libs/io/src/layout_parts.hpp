@@ -9,7 +9,7 @@
 
 #include "file_log.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 
 /// Point files of a folder in numeric order: of the kind (.bin, .pcd, .ply) that is there most often. Empty
 /// when there are none or the folder is none.
@@ -32,7 +32,7 @@ void take_stamps(FileLogParts& parts, const std::filesystem::path& file);
 
 /// Replaces times that repeat or go back (all but a longest rising subsequence) by times between their neighbours'.
 /// Returns what was wrong and warns of it; empty when nothing is.
-std::string mend_times(std::vector<double>& stamps_s, const std::filesystem::path& file);
+std::string repair_timestamps(std::vector<double>& stamps_s, const std::filesystem::path& file);
 
 /// Takes reference poses (one a scan) when the file is there; lengths that do not fit become truth_problem and
 /// a warning. `to_lidar` makes a T_world_lidar of each pose.
@@ -54,4 +54,4 @@ std::optional<double> stamp_in_name(const std::filesystem::path& file);
 /// "2011-09-26 13:02:25.951199337" or with other separators, as seconds since 1970 (UTC).
 std::optional<double> parse_date_time(std::string_view text);
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

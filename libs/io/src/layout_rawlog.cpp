@@ -4,15 +4,15 @@
 #include "layouts.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/mrpt_bridge/rawlog.hpp"
+#include "loopmark/text/text.hpp"
 #include "point_columns.hpp"
-#include "text.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace fs = std::filesystem;
 namespace {
 
 bool is_rawlog(const fs::path& path) {
-  const std::string extension = lower_case(path.extension().string());
+  const std::string extension = text::lower_case(path.extension().string());
   std::error_code error;
   return extension == ".rawlog" && fs::is_regular_file(path, error);
 }
@@ -44,7 +44,7 @@ class RawlogLog : public DriveLog {
     for (std::size_t i = 0; i < reader_.size(); ++i) {
       parts.stamps_s.push_back(reader_.stamp_s(i));
     }
-    const std::string times_problem = mend_times(parts.stamps_s, file);
+    const std::string times_problem = repair_timestamps(parts.stamps_s, file);
     if (!reader_.truth().poses.empty()) {
       take_truth_interpolated(parts, reader_.truth().stamps_s, reader_.truth().poses, file.string());
     }
@@ -80,13 +80,13 @@ class RawlogLog : public DriveLog {
       throw DamagedScan(error.what());
     }
     ScanReading reading{{index, stamp_s(index), {}}, {}, false, false};
-    reading.scan.cloud = drop_senseless(std::move(cloud), options_, reading.dropped);
+    reading.scan.cloud = filter_invalid(std::move(cloud), options_, reading.dropped);
     finish_reading(reading, scan_name(index), info_, options_);
     return reading;
   }
 
  private:
-  RawlogReader reader_;
+  mrpt_bridge::RawlogReader reader_;
   LogOptions options_;
   LogInfo info_;
   std::vector<double> stamps_s_;
@@ -100,4 +100,4 @@ LogPointer open_rawlog(const fs::path& path, const LogOptions& options) {
   return file.empty() ? nullptr : std::make_unique<RawlogLog>(file, options);
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -8,7 +8,7 @@
 
 #include "loopmark/io/drive_log.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 
 using LogPointer = std::unique_ptr<DriveLog>;
 
@@ -28,4 +28,4 @@ LogPointer open_folder(const std::filesystem::path& path, const LogOptions& opti
 /// An MRPT .rawlog, or a folder with one.
 LogPointer open_rawlog(const std::filesystem::path& path, const LogOptions& options);
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -8,7 +8,7 @@
 
 #include "loopmark/io/log_report.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -191,4 +191,4 @@ StampFacts examine_stamps(const std::vector<double>& stamps_s) {
   return facts;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

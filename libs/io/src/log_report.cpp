@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/interrupt.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
+#include "loopmark/storage/files.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 /// What reading one scan showed.
@@ -25,7 +25,7 @@ struct ScanFacts {
 };
 
 std::uint32_t checksum_of(const PointCloud& cloud) {
-  return crc32({reinterpret_cast<const char*>(cloud.points.data()), cloud.size() * sizeof(Eigen::Vector3f)});
+  return storage::crc32({reinterpret_cast<const char*>(cloud.points.data()), cloud.size() * sizeof(Eigen::Vector3f)});
 }
 
 ScanFacts facts_of(const DriveLog& log, std::size_t index) {
@@ -162,4 +162,4 @@ DatasetReport examine_dataset(const Dataset& dataset) {
   return report;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

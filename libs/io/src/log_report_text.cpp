@@ -7,7 +7,7 @@
 
 #include "loopmark/io/log_report.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -238,4 +238,4 @@ std::string report_json(const DatasetReport& r) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 
 bool lzf_decompress(std::span<const char> in, std::span<char> out) {
   std::size_t i = 0;
@@ -42,4 +42,4 @@ bool lzf_decompress(std::span<const char> in, std::span<char> out) {
   return o == out.size();
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

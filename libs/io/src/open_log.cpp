@@ -6,21 +6,22 @@
 
 #include "layouts.hpp"
 #include "loopmark/io/drive_log.hpp"
-#include "text.hpp"
+#include "loopmark/text/text.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace fs = std::filesystem;
 namespace {
 
 struct Format {
   std::string_view name;
-  io::LogPointer (*open)(const fs::path& path, const LogOptions& options);
+  internal::LogPointer (*open)(const fs::path& path, const LogOptions& options);
 };
 
 /// The most particular layouts first: the first that fits is taken.
 constexpr std::array kFormats = {
-    Format{"kitti-raw", io::open_kitti_raw}, Format{"mulran", io::open_mulran}, Format{"apollo", io::open_apollo},
-    Format{"folder", io::open_folder},       Format{"rawlog", io::open_rawlog},
+    Format{"kitti-raw", internal::open_kitti_raw}, Format{"mulran", internal::open_mulran},
+    Format{"apollo", internal::open_apollo},       Format{"folder", internal::open_folder},
+    Format{"rawlog", internal::open_rawlog},
 };
 
 std::string known_formats() {
@@ -66,7 +67,7 @@ std::unique_ptr<DriveLog> open_log(const fs::path& path, const LogOptions& optio
     if (!wanted(format, options.format)) {
       continue;
     }
-    if (io::LogPointer opened = format.open(path, options)) {
+    if (internal::LogPointer opened = format.open(path, options)) {
       return opened;
     }
   }
@@ -75,4 +76,4 @@ std::unique_ptr<DriveLog> open_log(const fs::path& path, const LogOptions& optio
                    "pcds/, or in one other sub-folder, and for a .rawlog file");
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

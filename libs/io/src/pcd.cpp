@@ -4,11 +4,11 @@
 #include <cstring>
 #include <vector>
 
+#include "loopmark/text/text.hpp"
 #include "point_columns.hpp"
 #include "point_formats.hpp"
-#include "text.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace {
 
 struct Field {
@@ -53,7 +53,7 @@ class HeaderReader {
       if (!line.empty() && line.back() == '\r') {
         line.remove_suffix(1);
       }
-      take(split_words(line));
+      take(text::split_words(line));
     }
     finish();
     return header_;
@@ -65,7 +65,7 @@ class HeaderReader {
   }
 
   std::size_t whole(std::string_view word) const {
-    const auto value = parse_whole(word);
+    const auto value = text::parse_whole(word);
     if (!value || *value > (1ULL << 32U)) {
       fail("'" + std::string(word) + "' is no sensible number");
     }
@@ -105,7 +105,7 @@ class HeaderReader {
       header_.points = whole(words[1]);
       points_said_ = true;
     } else if (key == "DATA") {
-      header_.data = lower_case(words[1]);
+      header_.data = text::lower_case(words[1]);
     }
   }
 
@@ -235,4 +235,4 @@ PointFile read_pcd(std::span<const char> bytes, const std::string& file, const L
   throw DamagedScan(file, "line " + std::to_string(header.lines), "unknown DATA '" + header.data + "'");
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

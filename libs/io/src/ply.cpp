@@ -3,11 +3,11 @@
 // PLY polygon files, of which only the vertices are read.
 #include <vector>
 
+#include "loopmark/text/text.hpp"
 #include "point_columns.hpp"
 #include "point_formats.hpp"
-#include "text.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace {
 
 struct Property {
@@ -42,7 +42,7 @@ class HeaderReader {
       if (!line.empty() && line.back() == '\r') {
         line.remove_suffix(1);
       }
-      take(split_words(line));
+      take(text::split_words(line));
     }
     if (header_.points == 0) {
       fail("the header promises no vertices");
@@ -84,7 +84,7 @@ class HeaderReader {
 
   void take_element(std::string_view name, std::string_view count) {
     in_vertices_ = name == "vertex";
-    const auto number = parse_whole(count);
+    const auto number = text::parse_whole(count);
     if (!number || *number > (1ULL << 32U)) {
       fail("'" + std::string(count) + "' is no sensible number");
     }
@@ -145,4 +145,4 @@ PointFile read_ply(std::span<const char> bytes, const std::string& file, const L
   return decode_points(columns, options);
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -9,10 +9,10 @@
 #include <cstring>
 #include <span>
 
+#include "loopmark/text/text.hpp"
 #include "point_times.hpp"
-#include "text.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace {
 
 template <class T, class Out>
@@ -136,7 +136,7 @@ std::size_t size_of(NumberType type) {
 }
 
 Column* column_for_field(PointColumns& columns, std::string_view field_name) {
-  const std::string name = lower_case(field_name);
+  const std::string name = text::lower_case(field_name);
   const auto is = [&name](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -155,7 +155,7 @@ void require_coordinates(const PointColumns& columns, const std::string& file) {
   }
 }
 
-PointCloud drop_senseless(PointCloud cloud, const LogOptions& options, DroppedPoints& dropped) {
+PointCloud filter_invalid(PointCloud cloud, const LogOptions& options, DroppedPoints& dropped) {
   std::vector<std::size_t> kept;
   kept.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -192,4 +192,4 @@ PointFile decode_points(const PointColumns& columns, const LogOptions& options) 
   return file;
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -10,7 +10,7 @@
 
 #include "loopmark/io/point_files.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 
 enum class NumberType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
 
@@ -38,9 +38,9 @@ Column* column_for_field(PointColumns& columns, std::string_view field_name);
 PointFile decode_points(const PointColumns& columns, const LogOptions& options);
 
 /// The cloud without its senseless points, which are counted.
-PointCloud drop_senseless(PointCloud cloud, const LogOptions& options, DroppedPoints& dropped);
+PointCloud filter_invalid(PointCloud cloud, const LogOptions& options, DroppedPoints& dropped);
 
 /// Throws DamagedScan with `file` unless x, y and z are there.
 void require_coordinates(const PointColumns& columns, const std::string& file);
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -10,12 +10,11 @@
 #include <charconv>
 #include <cstring>
 
+#include "loopmark/text/text.hpp"
 #include "point_columns.hpp"
 #include "point_formats.hpp"
-#include "text.hpp"
 
-namespace loopmark {
-namespace io {
+namespace loopmark::io {
 namespace {
 
 const char* const kCopyAgain = "copy the file again, or leave it out";
@@ -39,7 +38,7 @@ class Descriptor {
 
 }  // namespace
 
-FileBytes::FileBytes(const std::filesystem::path& path) {
+internal::FileBytes::FileBytes(const std::filesystem::path& path) {
   const Descriptor file(path);
   struct stat status {};
   if (file.get() < 0 || ::fstat(file.get(), &status) != 0) {
@@ -64,13 +63,13 @@ FileBytes::FileBytes(const std::filesystem::path& path) {
   }
 }
 
-void throw_truncated(const std::string& file, std::size_t bytes_there, std::size_t bytes_needed) {
+void internal::throw_truncated(const std::string& file, std::size_t bytes_there, std::size_t bytes_needed) {
   throw DamagedScan(file, "byte " + std::to_string(bytes_there),
                     "truncated: " + std::to_string(bytes_needed) + " bytes are needed", kCopyAgain);
 }
 
-PointFile read_bin(std::span<const char> bytes, std::size_t columns, const std::string& file,
-                   const LogOptions& options) {
+PointFile internal::read_bin(std::span<const char> bytes, std::size_t columns, const std::string& file,
+                             const LogOptions& options) {
   const std::size_t stride = columns * sizeof(float);
   if (columns < 3 || columns > 6) {
     throw InputError("option bin_columns: 3 to 6 columns can be read: x y z intensity ring time");
@@ -81,17 +80,18 @@ PointFile read_bin(std::span<const char> bytes, std::size_t columns, const std::
                       std::string(kCopyAgain) + "; or set bin_columns where points have other than " +
                           std::to_string(columns) + " values");
   }
-  PointColumns table;
+  internal::PointColumns table;
   table.count = bytes.size() / stride;
-  const std::array<Column*, 6> order = {&table.x, &table.y, &table.z, &table.intensity, &table.ring, &table.time};
+  const std::array<internal::Column*, 6> order = {&table.x,         &table.y,    &table.z,
+                                                  &table.intensity, &table.ring, &table.time};
   for (std::size_t c = 0; c < columns; ++c) {
-    *order[c] = {bytes.data() + c * sizeof(float), stride, NumberType::kFloat32};
+    *order[c] = {bytes.data() + c * sizeof(float), stride, internal::NumberType::kFloat32};
   }
-  return decode_points(table, options);
+  return internal::decode_points(table, options);
 }
 
-std::vector<double> read_ascii_table(std::span<const char> bytes, std::size_t rows, std::size_t columns,
-                                     const std::string& file, std::size_t first_line) {
+std::vector<double> internal::read_ascii_table(std::span<const char> bytes, std::size_t rows, std::size_t columns,
+                                               const std::string& file, std::size_t first_line) {
   std::vector<double> values;
   values.reserve(std::min(rows * columns, bytes.size()));
   const char* at = bytes.data();
@@ -118,23 +118,21 @@ std::vector<double> read_ascii_table(std::span<const char> bytes, std::size_t ro
   return values;
 }
 
-}  // namespace io
-
 PointFile read_point_file(const std::filesystem::path& path, const LogOptions& options) {
   const std::string file = path.string();
-  const std::string name = io::lower_case(path.filename().string());
-  const io::FileBytes content(path);
+  const std::string name = text::lower_case(path.filename().string());
+  const internal::FileBytes content(path);
   if (name.ends_with(".pcd")) {
-    return io::read_pcd(content.bytes(), file, options);
+    return internal::read_pcd(content.bytes(), file, options);
   }
   if (name.ends_with(".ply")) {
-    return io::read_ply(content.bytes(), file, options);
+    return internal::read_ply(content.bytes(), file, options);
   }
   if (name.ends_with(".bin")) {
     const std::size_t guess = name.ends_with(".pcd.bin") ? 5 : 4;
-    return io::read_bin(content.bytes(), options.bin_columns > 0 ? options.bin_columns : guess, file, options);
+    return internal::read_bin(content.bytes(), options.bin_columns > 0 ? options.bin_columns : guess, file, options);
   }
   throw DamagedScan(file, "", "not a point file", "known are .bin, .pcd and .ply");
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -11,7 +11,7 @@
 
 #include "loopmark/io/point_files.hpp"
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 
 /// A file's bytes, read in one go.
 class FileBytes {
@@ -41,4 +41,4 @@ std::vector<double> read_ascii_table(std::span<const char> bytes, std::size_t ro
 /// LZF decompression (as PCD binary_compressed uses it); false when the data does not fill `out` exactly.
 bool lzf_decompress(std::span<const char> in, std::span<char> out);
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

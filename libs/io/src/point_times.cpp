@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 namespace {
 
 constexpr double kLongestSweep_s = 2.0;
@@ -66,4 +66,4 @@ void refer_to_stamp(std::vector<float>& offset_s, double first_time_s, double st
   }
 }
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace loopmark::io {
+namespace loopmark::io::internal {
 
 struct PointTimes {
   std::vector<float> offset_s;    ///< seconds; empty when the numbers cannot be times of one sweep
@@ -23,4 +23,4 @@ PointTimes interpret_times(const std::vector<double>& values, bool fraction);
 /// (more than 2 s apart) the scan's stamp is taken for the start of its sweep.
 void refer_to_stamp(std::vector<float>& offset_s, double first_time_s, double stamp_s);
 
-}  // namespace loopmark::io
+}  // namespace loopmark::io::internal

@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/io/point_files.hpp"
+#include "loopmark/storage/files.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "point files are little-endian");
@@ -85,7 +85,7 @@ Bytes ply_bytes(const PointCloud& cloud, const std::vector<Rgb>& colours) {
 }
 
 void write(const std::filesystem::path& path, const std::string& header, const Bytes& bytes) {
-  write_file_atomically(path, [&](std::ostream& stream) { stream << header << bytes.text(); });
+  storage::write_file_atomically(path, [&](std::ostream& stream) { stream << header << bytes.text(); });
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ void write_ply(const std::filesystem::path& path, const PointCloud& cloud, const
 
 void write_ply_in_parts(const std::filesystem::path& path, std::size_t count,
                         const std::function<void(const PlyPart&)>& fill) {
-  write_file_atomically(path, [&](std::ostream& stream) {
+  storage::write_file_atomically(path, [&](std::ostream& stream) {
     std::size_t written = 0;
     bool begun = false;
     const auto add = [&](const PointCloud& cloud, const std::vector<Rgb>& colours) {
@@ -136,4 +136,4 @@ void write_ply_in_parts(const std::filesystem::path& path, std::size_t count,
   });
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <utility>
 
-#include "loopmark/core/files.hpp"
-#include "text.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/text/text.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 bool contains(const std::string& text, std::string_view words) { return text.find(words) != std::string::npos; }
@@ -20,15 +20,15 @@ std::optional<double> period_in(const std::string& text) {
   if (end == std::string::npos) {
     return std::nullopt;
   }
-  const auto words = io::split_words(std::string_view(text).substr(0, end), ',');
-  const auto value = words.empty() ? std::nullopt : io::parse_number(words.back());
+  const auto words = text::split_words(std::string_view(text).substr(0, end), ',');
+  const auto value = words.empty() ? std::nullopt : text::parse_number(words.back());
   return value && *value > 0.0 ? value : std::nullopt;
 }
 
 }  // namespace
 
 SweepHint parse_sweep_hint(const std::string& raw) {
-  const std::string text = io::lower_case(raw);
+  const std::string text = text::lower_case(raw);
   SweepHint hint;
   if (contains(text, "motion compensated") || contains(text, "motion-compensated")) {
     hint.motion_compensated = !contains(text, "not motion");
@@ -38,7 +38,7 @@ SweepHint parse_sweep_hint(const std::string& raw) {
   if (!counter && !contains(text, "clockwise")) {
     return hint;
   }
-  SweepModel model;
+  cloud::SweepModel model;
   model.clockwise = !counter;
   model.period_s = period_in(text).value_or(model.period_s);
   constexpr double kPi = std::numbers::pi;
@@ -55,7 +55,7 @@ SweepHint parse_sweep_hint(const std::string& raw) {
 
 SweepHint read_sweep_hint(const std::filesystem::path& path) {
   std::error_code error;
-  return std::filesystem::is_regular_file(path, error) ? parse_sweep_hint(read_file(path)) : SweepHint{};
+  return std::filesystem::is_regular_file(path, error) ? parse_sweep_hint(storage::read_file(path)) : SweepHint{};
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
-#include "text.hpp"
+#include "loopmark/storage/files.hpp"
+#include "loopmark/text/text.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 namespace {
 
 std::string number(const char* format, double value) {
@@ -57,7 +57,7 @@ std::string tum_text(const std::vector<double>& stamps_s, const std::vector<Pose
 }
 
 void write_tum(const std::filesystem::path& path, const std::vector<double>& stamps_s, const std::vector<Pose>& poses) {
-  write_file_atomically(path, tum_text(stamps_s, poses));
+  storage::write_file_atomically(path, tum_text(stamps_s, poses));
 }
 
 std::string kitti_text(const std::vector<Pose>& poses) {
@@ -72,13 +72,13 @@ std::string kitti_text(const std::vector<Pose>& poses) {
 }
 
 void write_kitti(const std::filesystem::path& path, const std::vector<Pose>& poses) {
-  write_file_atomically(path, kitti_text(poses));
+  storage::write_file_atomically(path, kitti_text(poses));
 }
 
 Trajectory read_trajectory(const std::filesystem::path& path) {
   Trajectory trajectory;
   std::size_t columns = 0;
-  for (const io::NumberRow& row : io::read_number_rows(path)) {
+  for (const text::NumberRow& row : text::read_number_rows(path)) {
     const std::size_t width = row.values.size();
     if (width != 8 && width != 12) {
       throw InputError(path.string(), std::to_string(row.line),
@@ -114,4 +114,4 @@ Pose pose_at(const Trajectory& trajectory, double stamp_s) {
   return interpolate(trajectory.poses[i - 1], trajectory.poses[i], ratio);
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::io

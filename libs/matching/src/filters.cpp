@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopmark {
+namespace loopmark::matching {
 namespace {
 
 template <class Predicate>
@@ -53,4 +53,4 @@ Correspondences keep_best(Correspondences matches, std::size_t count) {
   return matches;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::matching

@@ -6,7 +6,7 @@
 
 #include "loopmark/matching/filters.hpp"
 
-namespace loopmark {
+namespace loopmark::matching {
 namespace {
 
 /// The cells of the grid over the matched source points, by match.
@@ -98,4 +98,4 @@ Correspondences grid_prioritized_filter(const Correspondences& matches, const st
   return kept;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::matching

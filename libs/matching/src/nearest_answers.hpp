@@ -7,21 +7,21 @@
 #include <limits>
 #include <vector>
 
-#include "feature_leaves.hpp"
 #include "loopmark/matching/nearest_two.hpp"
+#include "pca_buckets.hpp"
 
-namespace loopmark {
+namespace loopmark::matching::internal {
 
 constexpr float kBoundRounding = 1.001F;  ///< boxes are made of rounded coordinates
 
 /// The nearest two found so far of every place of one cloud, in the other; and from where on others are too far.
 class NearestAnswers {
  public:
-  NearestAnswers(const FeatureLeaves& asking, const WholeNumbers& scale)
+  NearestAnswers(const PcaBuckets& asking, const WholeNumbers& scale)
       : asking_(&asking),
         scale_(scale),
         best_(asking.size()),
-        limits_(asking.chunks() * kernels::kChunk, kNotAsked),
+        limits_(asking.chunks() * kChunk, kNotAsked),
         reach_(asking.chunks(), std::numeric_limits<float>::infinity()),
         leaf_reach_(asking.leaves(), std::numeric_limits<float>::infinity()) {
     std::fill_n(limits_.begin(), asking.size(), kNoLimit);
@@ -59,17 +59,17 @@ class NearestAnswers {
 
   /// After offers taken by places of a chunk: others are too far from now on.
   void narrow(std::size_t chunk) {
-    const std::size_t begin = chunk * kernels::kChunk;
-    const std::size_t end = std::min(best_.size(), begin + kernels::kChunk);
-    std::array<float, kernels::kChunk> squared{};
+    const std::size_t begin = chunk * kChunk;
+    const std::size_t end = std::min(best_.size(), begin + kChunk);
+    std::array<float, kChunk> squared{};
     for (std::size_t place = begin; place < end; ++place) {
       squared[place - begin] = best_[place].second_squared;
     }
     scale_.limits(squared.data(), end - begin, limits_.data() + begin);
     reach_[chunk] = *std::max_element(squared.begin(), squared.end()) * kBoundRounding + scale_.slack;
-    const auto first = reach_.begin() + static_cast<std::ptrdiff_t>(chunk / kernels::kChunks * kernels::kChunks);
-    const auto last = first + std::min<std::ptrdiff_t>(kernels::kChunks, reach_.end() - first);
-    leaf_reach_[chunk / kernels::kChunks] = *std::max_element(first, last);
+    const auto first = reach_.begin() + static_cast<std::ptrdiff_t>(chunk / kChunks * kChunks);
+    const auto last = first + std::min<std::ptrdiff_t>(kChunks, reach_.end() - first);
+    leaf_reach_[chunk / kChunks] = *std::max_element(first, last);
   }
 
   /// Takes over what others found for the same places.
@@ -89,7 +89,7 @@ class NearestAnswers {
   }
 
  private:
-  const FeatureLeaves* asking_;
+  const PcaBuckets* asking_;
   WholeNumbers scale_;
   std::vector<NearestTwo> best_;
   std::vector<std::int32_t> limits_;
@@ -97,4 +97,4 @@ class NearestAnswers {
   std::vector<float> leaf_reach_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::matching::internal

@@ -10,38 +10,38 @@
 
 #include "loopmark/core/parallel.hpp"
 #include "nearest_answers.hpp"
-#include "principal_frame.hpp"
+#include "pca_basis.hpp"
 
-namespace loopmark {
+namespace loopmark::matching {
 namespace {
 
-using kernels::kChunk;
-using kernels::kChunks;
+using internal::kChunk;
+using internal::kChunks;
 
 /// One cloud and what its places have found in the other.
 struct Side {
-  const FeatureLeaves& leaves;
-  NearestAnswers& answers;
+  const internal::PcaBuckets& leaves;
+  internal::NearestAnswers& answers;
 };
 
-float distance(const FeatureLeaves& a, std::size_t place_a, const FeatureLeaves& b, std::size_t place_b) {
-  return kernels::row_distance(a.row(place_a), b.row(place_b), a.padded());
+float distance(const internal::PcaBuckets& a, std::size_t place_a, const internal::PcaBuckets& b, std::size_t place_b) {
+  return internal::row_distance(a.row(place_a), b.row(place_b), a.padded());
 }
 
 /// Offers those of two chunks to each other that are near enough.
 void meet(const Side& a, std::size_t chunk_a, const Side& b, std::size_t chunk_b) {
-  static const kernels::ScanChunks scan = kernels::scan_chunks();
-  std::array<std::uint16_t, kChunk> hits;
+  static const internal::ScanChunks scan = internal::scan_chunks();
+  std::array<std::uint16_t, internal::kChunk> hits;
   if (!scan(a.leaves.queries(chunk_a, a.answers.limits()), b.leaves.targets(chunk_b, b.answers.limits()),
             a.leaves.pairs(), hits.data())) {
     return;
   }
   bool taken_a = false;
   bool taken_b = false;
-  for (std::size_t q = 0; q < kChunk; ++q) {
+  for (std::size_t q = 0; q < internal::kChunk; ++q) {
     for (std::uint32_t lanes = hits[q]; lanes != 0; lanes &= lanes - 1) {
-      const std::size_t place_a = chunk_a * kChunk + q;
-      const std::size_t place_b = chunk_b * kChunk + static_cast<std::size_t>(std::countr_zero(lanes));
+      const std::size_t place_a = chunk_a * internal::kChunk + q;
+      const std::size_t place_b = chunk_b * internal::kChunk + static_cast<std::size_t>(std::countr_zero(lanes));
       if (place_a >= a.leaves.size() || place_b >= b.leaves.size()) {
         continue;
       }
@@ -68,17 +68,19 @@ std::size_t lowest(const float* begin, std::size_t count) {
 
 /// Each place of a leaf meets the chunk of the other cloud that is nearest to its own: whatever is found there, others
 /// need to be nearer.
-void start_leaf(const Side& a, const FeatureLeaves& b, std::size_t leaf) {
+void start_leaf(const Side& a, const internal::PcaBuckets& b, std::size_t leaf) {
   std::vector<float> bounds;
-  std::array<float, kChunks> of_chunks;
-  const std::size_t end = std::min(a.leaves.chunks(), (leaf + 1) * kChunks);
-  for (std::size_t chunk = leaf * kChunks; chunk < end; ++chunk) {
+  std::array<float, internal::kChunks> of_chunks;
+  const std::size_t end = std::min(a.leaves.chunks(), (leaf + 1) * internal::kChunks);
+  for (std::size_t chunk = leaf * internal::kChunks; chunk < end; ++chunk) {
     b.bounds_to_leaves(a.leaves, chunk, bounds);
     const std::size_t home = lowest(bounds.data(), bounds.size());
     b.bounds_to_chunks(a.leaves, chunk, home, of_chunks.data());
-    const std::size_t first = (home * kChunks + lowest(of_chunks.data(), kChunks)) * kChunk;
-    for (std::size_t place = chunk * kChunk; place < std::min(a.leaves.size(), (chunk + 1) * kChunk); ++place) {
-      for (std::size_t other = first; other < std::min(b.size(), first + kChunk); ++other) {
+    const std::size_t first =
+        (home * internal::kChunks + lowest(of_chunks.data(), internal::kChunks)) * internal::kChunk;
+    for (std::size_t place = chunk * internal::kChunk;
+         place < std::min(a.leaves.size(), (chunk + 1) * internal::kChunk); ++place) {
+      for (std::size_t other = first; other < std::min(b.size(), first + internal::kChunk); ++other) {
         a.answers.offer(place, b.original(other), distance(a.leaves, place, b, other));
       }
     }
@@ -86,8 +88,9 @@ void start_leaf(const Side& a, const FeatureLeaves& b, std::size_t leaf) {
   }
 }
 
-NearestAnswers start(const FeatureLeaves& a, const FeatureLeaves& b, const WholeNumbers& scale) {
-  NearestAnswers answers(a, scale);
+internal::NearestAnswers start(const internal::PcaBuckets& a, const internal::PcaBuckets& b,
+                               const internal::WholeNumbers& scale) {
+  internal::NearestAnswers answers(a, scale);
   parallel_for(a.leaves(), [&](std::size_t leaf) { start_leaf({a, answers}, b, leaf); });
   return answers;
 }
@@ -111,16 +114,16 @@ void search_chunk(const Side& a, std::size_t chunk, const Side& b, Workspace& wo
     }
   }
   std::sort(work.nearest.begin(), work.nearest.end());
-  std::array<float, kChunks> of_chunks;
+  std::array<float, internal::kChunks> of_chunks;
   for (const std::uint64_t key : work.nearest) {
     const std::size_t leaf = key & 0xFFFFFFFFU;
     if (!in_reach(leaf)) {
       continue;
     }
     b.leaves.bounds_to_chunks(a.leaves, chunk, leaf, of_chunks.data());
-    const std::size_t end = std::min(b.leaves.chunks(), (leaf + 1) * kChunks);
-    for (std::size_t other = leaf * kChunks; other < end; ++other) {
-      if (of_chunks[other % kChunks] < std::max(a.answers.reach(chunk), b.answers.reach(other))) {
+    const std::size_t end = std::min(b.leaves.chunks(), (leaf + 1) * internal::kChunks);
+    for (std::size_t other = leaf * internal::kChunks; other < end; ++other) {
+      if (of_chunks[other % internal::kChunks] < std::max(a.answers.reach(chunk), b.answers.reach(other))) {
         meet(a, chunk, b, other);
       }
     }
@@ -129,26 +132,28 @@ void search_chunk(const Side& a, std::size_t chunk, const Side& b, Workspace& wo
 
 /// Both directions in one pass: each thread takes leaves of the source and keeps answers of its own for the target.
 /// Whoever compares two places, the two nearest are the same.
-void search(const FeatureLeaves& source, NearestAnswers& forward, const FeatureLeaves& target,
-            NearestAnswers& backward) {
-  std::vector<NearestAnswers> parts(std::max<std::size_t>(1, std::min(source.leaves(), thread_count())), backward);
+void search(const internal::PcaBuckets& source, internal::NearestAnswers& forward, const internal::PcaBuckets& target,
+            internal::NearestAnswers& backward) {
+  std::vector<internal::NearestAnswers> parts(std::max<std::size_t>(1, std::min(source.leaves(), thread_count())),
+                                              backward);
   std::atomic<std::size_t> next{0};
   parallel_for(parts.size(), [&](std::size_t part) {
     Workspace work;
     for (std::size_t leaf = next++; leaf < source.leaves(); leaf = next++) {
-      for (std::size_t chunk = leaf * kChunks; chunk < std::min(source.chunks(), (leaf + 1) * kChunks); ++chunk) {
+      for (std::size_t chunk = leaf * internal::kChunks;
+           chunk < std::min(source.chunks(), (leaf + 1) * internal::kChunks); ++chunk) {
         search_chunk({source, forward}, chunk, {target, parts[part]}, work);
       }
     }
   });
-  for (const NearestAnswers& part : parts) {
+  for (const internal::NearestAnswers& part : parts) {
     backward.take(part);
   }
 }
 
 }  // namespace
 
-TwoWayNearest nearest_two(const DescriptorMatrix& source, const DescriptorMatrix& target) {
+TwoWayNearest nearest_two(const search::DescriptorMatrix& source, const search::DescriptorMatrix& target) {
   TwoWayNearest out;
   out.forward.resize(static_cast<std::size_t>(source.rows()));
   out.backward.resize(static_cast<std::size_t>(target.rows()));
@@ -158,26 +163,27 @@ TwoWayNearest nearest_two(const DescriptorMatrix& source, const DescriptorMatrix
   if (source.cols() != target.cols()) {
     throw std::invalid_argument("nearest_two: descriptors of different length");
   }
-  const PrincipalFrame frame = PrincipalFrame::of(source, target);
-  const std::array<const DescriptorMatrix*, 2> given = {&source, &target};
-  std::array<DescriptorMatrix, 2> rotated;
+  const internal::PrincipalFrame frame = internal::PrincipalFrame::of(source, target);
+  const std::array<const search::DescriptorMatrix*, 2> given = {&source, &target};
+  std::array<search::DescriptorMatrix, 2> rotated;
   std::array<double, 2> longest;
   parallel_for(2, [&](std::size_t i) {
     rotated[i] = frame.rotated(*given[i]);
-    longest[i] = longest_row(rotated[i]);
+    longest[i] = internal::longest_row(rotated[i]);
   });
-  const auto scale = WholeNumbers::of(static_cast<std::size_t>(source.cols()), std::max(longest[0], longest[1]));
-  std::array<FeatureLeaves, 2> leaves;
-  parallel_for(2, [&](std::size_t i) { leaves[i] = FeatureLeaves(*given[i], rotated[i], scale); });
+  const auto scale =
+      internal::WholeNumbers::of(static_cast<std::size_t>(source.cols()), std::max(longest[0], longest[1]));
+  std::array<internal::PcaBuckets, 2> leaves;
+  parallel_for(2, [&](std::size_t i) { leaves[i] = internal::PcaBuckets(*given[i], rotated[i], scale); });
   if (leaves[0].size() == 0 || leaves[1].size() == 0) {
     return out;
   }
-  NearestAnswers forward = start(leaves[0], leaves[1], scale);
-  NearestAnswers backward = start(leaves[1], leaves[0], scale);
+  internal::NearestAnswers forward = start(leaves[0], leaves[1], scale);
+  internal::NearestAnswers backward = start(leaves[1], leaves[0], scale);
   search(leaves[0], forward, leaves[1], backward);
   forward.write(out.forward);
   backward.write(out.backward);
   return out;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::matching

@@ -4,7 +4,7 @@
 
 #include "loopmark/core/dispatch.hpp"
 
-namespace loopmark::kernels {
+namespace loopmark::matching::internal {
 
 LOOPMARK_DISPATCH
 float row_distance(const float* a, const float* b, std::size_t padded) {
@@ -48,4 +48,4 @@ void box_bounds(const float* q_low, const float* q_high, const float* low, const
   }
 }
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::matching::internal

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace loopmark::kernels {
+namespace loopmark::matching::internal {
 
 /// Principal coordinates used for boxes.
 constexpr std::size_t kBox = 12;
@@ -23,4 +23,4 @@ void round_products(const float* x, std::size_t count, float factor, float large
 void box_bounds(const float* q_low, const float* q_high, const float* low, const float* high, std::size_t count,
                 float* bound);
 
-}  // namespace loopmark::kernels
+}  // namespace loopmark::matching::internal

@@ -14,7 +14,7 @@
 
 #include "loopmark/core/error.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 namespace {
 
 using mrpt::maps::CPointsMapXYZI;
@@ -196,4 +196,4 @@ std::shared_ptr<CObservation> observation_from_scan(const Scan& scan, const std:
   return observation;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace loopmark::bridge {
+namespace loopmark::mrpt_bridge::internal {
 
 GzStream::GzStream(const std::filesystem::path& path) : file_(::gzopen(path.c_str(), "rb")) {
   if (file_ == nullptr) {
@@ -92,4 +92,4 @@ void GzOutput::close() {
   }
 }
 
-}  // namespace loopmark::bridge
+}  // namespace loopmark::mrpt_bridge::internal

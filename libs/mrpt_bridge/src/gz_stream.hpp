@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace loopmark::bridge {
+namespace loopmark::mrpt_bridge::internal {
 
 /// For reading; plain files too.
 class GzStream : public mrpt::io::CStream {
@@ -53,4 +53,4 @@ class GzOutput : public mrpt::io::CStream {
   gzFile file_;
 };
 
-}  // namespace loopmark::bridge
+}  // namespace loopmark::mrpt_bridge::internal

@@ -17,7 +17,7 @@
 #include "loopmark/mrpt_bridge/conversions.hpp"
 #include "loopmark/mrpt_bridge/map_export.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 namespace fs = std::filesystem;
 namespace {
 
@@ -135,7 +135,7 @@ mrpt::opengl::CGridPlaneXY::Ptr grid_below(const SceneContent& content) {
 void write_simplemap(const fs::path& path, std::size_t count,
                      const std::function<SimpleMapKeyframe(std::size_t)>& keyframe) {
   save_under_temporary_name(path, [&](const std::string& name) {
-    bridge::GzOutput file(name);
+    internal::GzOutput file(name);
     mrpt::serialization::archiveFrom(file) << StreamedSimpleMap(count, keyframe);
     file.close();
     return true;
@@ -174,4 +174,4 @@ void write_scene(const fs::path& path, const SceneContent& content) {
   save_under_temporary_name(path, [&](const std::string& name) { return scene.saveToFile(name); });
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

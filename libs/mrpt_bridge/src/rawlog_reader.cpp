@@ -18,7 +18,7 @@
 #include "loopmark/mrpt_bridge/conversions.hpp"
 #include "loopmark/mrpt_bridge/rawlog.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -72,7 +72,7 @@ struct RawlogReader::State {
   std::size_t rotating_scans = 0;
 
   std::mutex mutex;
-  std::unique_ptr<bridge::GzStream> stream;
+  std::unique_ptr<internal::GzStream> stream;
   std::size_t next_entry = 0;  ///< the stream stands before or at this entry's object
   std::deque<std::pair<std::size_t, ObservationPtr>> recent;
 
@@ -104,7 +104,7 @@ void RawlogReader::State::index_file() {
   std::size_t object_number = 0;
   std::uint64_t offset = 0;
   try {
-    bridge::GzStream file(path);
+    internal::GzStream file(path);
     auto archive = mrpt::serialization::archiveFrom(file);
     for (; !file.at_end(); ++object_number) {
       check_interrupt();
@@ -134,7 +134,7 @@ ObservationPtr RawlogReader::State::observation(std::size_t index) {
   }
   const bool ahead = stream && index >= next_entry;
   if (!ahead) {
-    stream = std::make_unique<bridge::GzStream>(path);
+    stream = std::make_unique<internal::GzStream>(path);
   }
   std::size_t from = ahead && index - next_entry < kReadAhead ? next_entry : index;
   auto archive = mrpt::serialization::archiveFrom(*stream);
@@ -198,4 +198,4 @@ PointCloud RawlogReader::read(std::size_t index) const {
   }
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

@@ -12,14 +12,14 @@
 #include "loopmark/mrpt_bridge/conversions.hpp"
 #include "loopmark/mrpt_bridge/rawlog.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 namespace fs = std::filesystem;
 
 struct RawlogWriter::State {
   fs::path path;
   fs::path partial;
   std::string label;
-  std::unique_ptr<bridge::GzOutput> file;  ///< none once finished
+  std::unique_ptr<internal::GzOutput> file;  ///< none once finished
 
   void write(const mrpt::serialization::CSerializable& object) {
     try {
@@ -35,7 +35,7 @@ RawlogWriter::RawlogWriter(fs::path path, std::string sensor_label) : state_(std
   state_->path = std::move(path);
   state_->label = std::move(sensor_label);
   try {
-    state_->file = std::make_unique<bridge::GzOutput>(state_->partial);
+    state_->file = std::make_unique<internal::GzOutput>(state_->partial);
   } catch (const std::exception&) {
     throw InputError(state_->path.string(), "", "cannot write", "does the folder exist, and may you write there?");
   }
@@ -75,4 +75,4 @@ void RawlogWriter::finish() {
   }
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

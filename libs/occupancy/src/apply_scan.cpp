@@ -7,7 +7,7 @@
 
 #include "loopmark/core/parallel.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 namespace {
 
 /// A block that the scan touches, and the byte of its first row in the bit volumes.
@@ -90,4 +90,4 @@ void apply_scan(const ScanVoxels& voxels, const LogOdds& odds, TileStore& store)
       touched.size(), [&](std::size_t i) { update_block(voxels, odds, touched[i]); }, 256);
 }
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

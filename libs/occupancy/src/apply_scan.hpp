@@ -6,9 +6,9 @@
 #include "ray_caster.hpp"
 #include "tile_store.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 
 /// Updates the log-odds of every voxel of a scan: once hit, or else once passed.
 void apply_scan(const ScanVoxels& voxels, const LogOdds& odds, TileStore& store);
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

@@ -7,7 +7,7 @@
 
 #include "voxel_key.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 
 /// A box of voxels, its corner at a multiple of eight voxels, its size along x a multiple of 64, along y and z of
 /// eight.
@@ -38,4 +38,4 @@ using Words = std::vector<std::uint64_t>;
 
 inline void set_bit(std::uint64_t* words, std::int64_t place) { words[place >> 6] |= std::uint64_t{1} << (place & 63); }
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

@@ -7,7 +7,7 @@
 
 #include "loopmark/occupancy/occupancy_options.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 
 /// The update of a voxel, in single precision and in the order that OctoMap uses.
 struct LogOdds {
@@ -31,4 +31,4 @@ struct LogOdds {
   }
 };
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

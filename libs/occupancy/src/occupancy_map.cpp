@@ -10,7 +10,7 @@
 #include "apply_scan.hpp"
 #include "tree_writer.hpp"
 
-namespace loopmark {
+namespace loopmark::occupancy {
 namespace {
 
 using namespace occupancy;
@@ -21,7 +21,9 @@ std::filesystem::path scratch_path(const std::filesystem::path& folder, const st
   return folder / ("." + what + "-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
 }
 
-std::size_t block_budget(const OccupancyOptions& options) { return options.memory_mb * (1U << 20U) / sizeof(Block); }
+std::size_t block_budget(const OccupancyOptions& options) {
+  return options.memory_mb * (1U << 20U) / sizeof(internal::Block);
+}
 
 std::vector<Eigen::Vector3f> moved(const std::vector<Eigen::Vector3f>& points, const Pose& T_map_sensor) {
   std::vector<Eigen::Vector3f> in_map;
@@ -40,9 +42,9 @@ struct OccupancyMapBuilder::State {
 
   OccupancyOptions options;
   std::filesystem::path scratch;
-  RayCaster caster;
-  LogOdds odds;
-  TileStore store;
+  internal::RayCaster caster;
+  internal::LogOdds odds;
+  internal::TileStore store;
   OccupancyStatistics statistics;
 };
 
@@ -54,8 +56,9 @@ OccupancyMapBuilder::OccupancyMapBuilder(const OccupancyOptions& options, const 
 OccupancyMapBuilder::~OccupancyMapBuilder() = default;
 
 void OccupancyMapBuilder::insert(const std::vector<Eigen::Vector3f>& points, const Pose& T_map_sensor) {
-  const ScanVoxels& voxels = state_->caster.cast(moved(points, T_map_sensor), T_map_sensor.translation().cast<float>());
-  apply_scan(voxels, state_->odds, state_->store);
+  const internal::ScanVoxels& voxels =
+      state_->caster.cast(moved(points, T_map_sensor), T_map_sensor.translation().cast<float>());
+  internal::apply_scan(voxels, state_->odds, state_->store);
   state_->store.trim();
   ++state_->statistics.scans;
   state_->statistics.rays += voxels.rays;
@@ -64,11 +67,11 @@ void OccupancyMapBuilder::insert(const std::vector<Eigen::Vector3f>& points, con
 
 OccupancyStatistics OccupancyMapBuilder::write(const std::filesystem::path& bt, const std::filesystem::path& ot) {
   const double resolution = state_->options.resolution_m;
-  TreeWriter binary(TreeFormat::kBinary, resolution, scratch_path(state_->scratch, "bt"));
-  TreeWriter full(TreeFormat::kFull, resolution, scratch_path(state_->scratch, "ot"));
+  internal::TreeWriter binary(internal::TreeFormat::kBinary, resolution, scratch_path(state_->scratch, "bt"));
+  internal::TreeWriter full(internal::TreeFormat::kFull, resolution, scratch_path(state_->scratch, "ot"));
   state_->store.for_each([&](std::uint32_t number, const std::string& bytes) {
-    binary.add(number, binary_subtree(bytes));
-    full.add(number, full_subtree(bytes));
+    binary.add(number, internal::binary_subtree(bytes));
+    full.add(number, internal::full_subtree(bytes));
   });
   if (!bt.empty()) {
     binary.write(bt);
@@ -93,4 +96,4 @@ void check(const OccupancyOptions& o) {
   require_option(o.memory_mb >= 1, "memory_mb", "must be at least 1");
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::occupancy

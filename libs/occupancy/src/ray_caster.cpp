@@ -8,7 +8,7 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/parallel.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 namespace {
 
 /// One axis of a walk.
@@ -130,4 +130,4 @@ const ScanVoxels& RayCaster::cast(const std::vector<Eigen::Vector3f>& points, co
   return voxels_;
 }
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

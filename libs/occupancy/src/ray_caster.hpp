@@ -9,7 +9,7 @@
 #include "bit_volume.hpp"
 #include "loopmark/occupancy/occupancy_options.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 
 /// The voxels of one scan. `passed` may hold hit voxels too: being hit wins.
 struct ScanVoxels {
@@ -49,4 +49,4 @@ class RayCaster {
   ScanVoxels voxels_;
 };
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

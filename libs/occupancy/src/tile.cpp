@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 namespace {
 
 constexpr std::size_t kRecord = 5;  // a float and a byte
@@ -167,4 +167,4 @@ std::uint32_t tile_number(const Eigen::Vector3i& tile) {
   return number;
 }
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

@@ -11,7 +11,7 @@
 
 #include "voxel_key.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 
 constexpr int kTileLevels = 7;
 constexpr int kTileVoxels = 1 << kTileLevels;
@@ -45,4 +45,4 @@ class Tile {
 /// tiles) interleaved, x lowest.
 std::uint32_t tile_number(const Eigen::Vector3i& tile);
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

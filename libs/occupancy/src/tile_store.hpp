@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "loopmark/core/spill_store.hpp"
+#include "loopmark/storage/spill_store.hpp"
 #include "tile.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 
 /// All tiles of a map by tile_number; a round is a scan, a tile weighs its blocks.
-using TileStore = SpillStore<std::uint32_t, Tile>;
+using TileStore = storage::SpillStore<std::uint32_t, Tile>;
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

@@ -6,10 +6,10 @@
 #include <cstring>
 #include <limits>
 
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 #include "tile.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 namespace {
 
 constexpr std::size_t kRecord = 5;
@@ -180,7 +180,7 @@ std::size_t TreeWriter::write(const std::filesystem::path& path) {
   if (!empty) {
     summarize(0);
   }
-  write_file_atomically(path, [&](std::ostream& out) {
+  storage::write_file_atomically(path, [&](std::ostream& out) {
     out << (format_ == TreeFormat::kFull ? "# Octomap OcTree file" : "# Octomap OcTree binary file")
         << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid OcTree\nsize "
         << nodes_[0].nodes << "\nres " << resolution_m_ << "\ndata\n";
@@ -191,4 +191,4 @@ std::size_t TreeWriter::write(const std::filesystem::path& path) {
   return nodes_[0].nodes;
 }
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "loopmark/core/scratch_file.hpp"
+#include "loopmark/storage/scratch_file.hpp"
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 
 /// The two formats of OctoMap: .ot with log-odds, .bt with free and occupied only.
 enum class TreeFormat { kFull, kBinary };
@@ -43,7 +43,7 @@ class TreeWriter {
   static constexpr std::int32_t kNone = -1;
   struct Node {
     std::array<std::int32_t, 8> children{kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-    Extent extent;  ///< of a tile
+    storage::Extent extent;  ///< of a tile
     bool is_tile = false;
     bool leaf = false;
     float value = 0.0F;
@@ -57,8 +57,8 @@ class TreeWriter {
 
   TreeFormat format_;
   double resolution_m_;
-  ScratchFile file_;
+  storage::ScratchFile file_;
   std::vector<Node> nodes_;
 };
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

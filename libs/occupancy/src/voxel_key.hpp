@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace loopmark::occupancy {
+namespace loopmark::occupancy::internal {
 
 constexpr int kTreeDepth = 16;
 constexpr int kMiddle = 1 << (kTreeDepth - 1);
@@ -32,4 +32,4 @@ inline bool key_of(const Eigen::Vector3f& point, double inverse_resolution, Key&
 /// Centre of a voxel along one axis, metres.
 inline double centre_of(int key, double resolution) { return (static_cast<double>(key - kMiddle) + 0.5) * resolution; }
 
-}  // namespace loopmark::occupancy
+}  // namespace loopmark::occupancy::internal

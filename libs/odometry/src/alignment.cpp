@@ -9,7 +9,7 @@
 
 #include "loopmark/core/parallel.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 constexpr std::size_t kBlock = 512;     // keypoints of one partial sum
@@ -99,7 +99,7 @@ NormalEquations linearize(const Keypoints& keypoints, const LocalMap& map, const
 }
 
 /// Where nothing holds the motion, the start does.
-void hold(NormalEquations& sums, const Pose& T, const Pose& T_start) {
+void add_position_prior(NormalEquations& sums, const Pose& T, const Pose& T_start) {
   constexpr double kShare = 1e-4;   // of the weight of the matches
   constexpr double kLeverM = 10.0;  // a rotation counts as what it moves at this range
   const double weight = kShare * static_cast<double>(sums.matches);
@@ -150,27 +150,32 @@ Matrix6d pose_covariance(const Matrix6d& H, double residual_m, const Pose& T, do
   return 0.5 * (covariance + covariance.transpose());
 }
 
-Health judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T, const OdometryOptions& options) {
-  Health health;
-  health.keypoints = keypoints;
-  health.inlier_share = keypoints > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(keypoints) : 0.0;
-  health.unmapped_share =
+TrackingStatus judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T,
+                     const OdometryOptions& options) {
+  TrackingStatus tracking_status;
+  tracking_status.keypoints = keypoints;
+  tracking_status.inlier_share =
+      keypoints > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(keypoints) : 0.0;
+  tracking_status.unmapped_share =
       keypoints > 0 ? 1.0 - static_cast<double>(sums.matches) / static_cast<double>(keypoints) : 1.0;
-  health.fit_share = sums.matches > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(sums.matches) : 0.0;
-  health.residual_m = sums.inliers > 0 ? std::sqrt(sums.squares / static_cast<double>(sums.inliers)) : 0.0;
-  health.degenerate_directions = weak_directions(sums.H_planes, keypoints, T, options.degenerate_share);
-  health.covariance = pose_covariance(sums.H_planes, health.residual_m, T, options.covariance_scale);
-  health.tracking = health.degenerate_directions.empty() ? Tracking::kGood : Tracking::kDegenerate;
-  return health;
+  tracking_status.fit_share =
+      sums.matches > 0 ? static_cast<double>(sums.inliers) / static_cast<double>(sums.matches) : 0.0;
+  tracking_status.residual_m = sums.inliers > 0 ? std::sqrt(sums.squares / static_cast<double>(sums.inliers)) : 0.0;
+  tracking_status.degenerate_directions = weak_directions(sums.H_planes, keypoints, T, options.degenerate_share);
+  tracking_status.covariance = pose_covariance(sums.H_planes, tracking_status.residual_m, T, options.covariance_scale);
+  tracking_status.tracking = tracking_status.degenerate_directions.empty() ? Tracking::kGood : Tracking::kDegenerate;
+  return tracking_status;
 }
 
-void count_structure(const NormalEquations& sums, const Keypoints& keypoints, Health& health) {
+void count_structure(const NormalEquations& sums, const Keypoints& keypoints, TrackingStatus& tracking_status) {
   if (keypoints.ground.empty()) {
     return;
   }
-  health.structure = static_cast<std::size_t>(std::count(keypoints.ground.begin(), keypoints.ground.end(), false));
-  health.structure_share =
-      health.structure > 0 ? static_cast<double>(sums.structure_inliers) / static_cast<double>(health.structure) : 0.0;
+  tracking_status.structure =
+      static_cast<std::size_t>(std::count(keypoints.ground.begin(), keypoints.ground.end(), false));
+  tracking_status.structure_share = tracking_status.structure > 0 ? static_cast<double>(sums.structure_inliers) /
+                                                                        static_cast<double>(tracking_status.structure)
+                                                                  : 0.0;
 }
 
 }  // namespace
@@ -189,16 +194,16 @@ Alignment align(const Keypoints& keypoints, const LocalMap& map, const Pose& T_m
       break;
     }
     if (!keypoints.ground.empty()) {
-      hold(sums, result.T_map_lidar, T_map_lidar);
+      add_position_prior(sums, result.T_map_lidar, T_map_lidar);
     }
     const Vector6d xi = -sums.H.ldlt().solve(sums.b);
     step(result.T_map_lidar, xi);
     converged = xi.norm() < kConverged;
   }
-  result.health = judge(sums, keypoints.points.size() - sums.left_out, result.T_map_lidar, options);
-  count_structure(sums, keypoints, result.health);
-  result.health.iterations = iteration;
-  result.health.converged = converged;
+  result.tracking_status = judge(sums, keypoints.points.size() - sums.left_out, result.T_map_lidar, options);
+  count_structure(sums, keypoints, result.tracking_status);
+  result.tracking_status.iterations = iteration;
+  result.tracking_status.converged = converged;
   return result;
 }
 
@@ -214,4 +219,4 @@ const char* name(Tracking tracking) {
   return "lost";
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -8,7 +8,7 @@
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/odometry/odometry.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 constexpr std::size_t kWarmUp = 3;       ///< scans of a window that only fill the local map
@@ -23,15 +23,15 @@ struct Sample {
 };
 
 std::vector<Sample> follow(const std::vector<std::size_t>& window, const std::function<Scan(std::size_t)>& read,
-                           Compensation assumption, const OdometryOptions& options, const SweepModel& sweep) {
+                           Compensation assumption, const OdometryOptions& options, const cloud::SweepModel& sweep) {
   Odometry odometry(options, assumption, sweep);
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < window.size(); ++i) {
     const TrackedScan tracked = odometry.track(read(window[i]));
     odometry.commit(tracked);
     if (i >= kWarmUp) {
-      samples.push_back(
-          {tracked.health.residual_m, tracked.velocity.head<3>().norm(), tracked.health.tracking == Tracking::kLost});
+      samples.push_back({tracked.tracking_status.residual_m, tracked.velocity.head<3>().norm(),
+                         tracked.tracking_status.tracking == Tracking::kLost});
     }
   }
   return samples;
@@ -85,7 +85,7 @@ std::vector<Compensation> assumptions(bool times_given) {
 std::vector<std::vector<Sample>> follow_all(const std::vector<std::vector<std::size_t>>& windows,
                                             const std::function<Scan(std::size_t)>& read,
                                             const std::vector<Compensation>& tried, const OdometryOptions& options,
-                                            const SweepModel& sweep) {
+                                            const cloud::SweepModel& sweep) {
   std::vector<std::vector<Sample>> runs(tried.size() * windows.size());
   parallel_for(runs.size(), [&](std::size_t k) {
     runs[k] = follow(windows[k % windows.size()], read, tried[k / windows.size()], options, sweep);
@@ -102,7 +102,7 @@ std::vector<std::vector<Sample>> follow_all(const std::vector<std::vector<std::s
 
 CompensationMeasurement measure_compensation(const std::vector<std::vector<std::size_t>>& windows,
                                              const std::function<Scan(std::size_t)>& read, bool times_given,
-                                             const OdometryOptions& options, const SweepModel& sweep) {
+                                             const OdometryOptions& options, const cloud::SweepModel& sweep) {
   CompensationMeasurement result;
   if (windows.empty()) {
     result.reason = "no stretch of consecutive scans";
@@ -153,4 +153,4 @@ const char* compensation_name(Compensation compensation) {
   }
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loopmark/core/byte_stream.hpp"
 #include "loopmark/core/parallel.hpp"
+#include "loopmark/storage/byte_stream.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 /// Normal of the points around one, zero where they form no plane.
@@ -40,13 +40,13 @@ LocalMap::LocalMap(double voxel_m, std::size_t points_per_voxel)
       spacing_squared_(static_cast<float>(voxel_m * voxel_m / static_cast<double>(capacity_))),
       table_(1024) {}
 
-Voxel LocalMap::voxel_at(const Eigen::Vector3d& point) const {
+search::Voxel LocalMap::voxel_at(const Eigen::Vector3d& point) const {
   return {static_cast<std::int32_t>(std::floor(point.x() / voxel_m_)),
           static_cast<std::int32_t>(std::floor(point.y() / voxel_m_)),
           static_cast<std::int32_t>(std::floor(point.z() / voxel_m_))};
 }
 
-Eigen::Vector3d LocalMap::corner(const Voxel& voxel) const {
+Eigen::Vector3d LocalMap::corner(const search::Voxel& voxel) const {
   return Eigen::Vector3d(voxel.x, voxel.y, voxel.z) * voxel_m_;
 }
 
@@ -68,7 +68,7 @@ bool LocalMap::add(Cell& cell, const Eigen::Vector3f& offset) const {
 void LocalMap::insert(const std::vector<Eigen::Vector3d>& points) {
   std::vector<std::uint32_t> changed;
   for (const Eigen::Vector3d& point : points) {
-    const Voxel voxel = voxel_at(point);
+    const search::Voxel voxel = voxel_at(point);
     const std::uint32_t cell = table_.insert(voxel);
     if (cell == cells_.size()) {
       cells_.emplace_back();
@@ -85,13 +85,13 @@ void LocalMap::insert(const std::vector<Eigen::Vector3d>& points) {
 
 void LocalMap::renew_normals(std::uint32_t index) {
   Cell& cell = cells_[index];
-  const Voxel home = table_.voxels()[index];
+  const search::Voxel home = table_.voxels()[index];
   std::array<Eigen::Vector3f, 27 * kMaxPoints> around;
   std::size_t count = 0;
   for (int k = 0; k < 27; ++k) {
     const Eigen::Vector3i step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
     const std::uint32_t other = table_.find({home.x + step.x(), home.y + step.y(), home.z + step.z()});
-    if (other == VoxelTable::kNone) {
+    if (other == search::VoxelTable::kNone) {
       continue;
     }
     const Eigen::Vector3f shift = step.cast<float>() * static_cast<float>(voxel_m_);
@@ -117,14 +117,14 @@ void LocalMap::renew_normals(std::uint32_t index) {
 }
 
 bool LocalMap::nearest(const Eigen::Vector3d& query, double max_distance, MapMatch& match) const {
-  const Voxel home = voxel_at(query);
+  const search::Voxel home = voxel_at(query);
   const Eigen::Vector3f inside = (query - corner(home)).cast<float>();
   const auto edge = static_cast<float>(voxel_m_);
   const auto reach = static_cast<float>(std::min(max_distance, voxel_m_));
   float best = reach * reach;
   const Cell* best_cell = nullptr;
   std::uint32_t best_point = 0;
-  Voxel best_voxel;
+  search::Voxel best_voxel;
   const auto outside = [&](float x, int step) {  // distance to the neighbouring voxel along one axis
     return step == 0 ? 0.0F : (step < 0 ? x : edge - x);
   };
@@ -137,9 +137,9 @@ bool LocalMap::nearest(const Eigen::Vector3d& query, double max_distance, MapMat
         if (gap_x * gap_x + gap_y * gap_y + gap_z * gap_z >= best) {
           continue;
         }
-        const Voxel voxel{home.x + dx, home.y + dy, home.z + dz};
+        const search::Voxel voxel{home.x + dx, home.y + dy, home.z + dz};
         const std::uint32_t index = table_.find(voxel);
-        if (index == VoxelTable::kNone) {
+        if (index == search::VoxelTable::kNone) {
           continue;
         }
         const Cell& cell = cells_[index];
@@ -167,11 +167,11 @@ bool LocalMap::nearest(const Eigen::Vector3d& query, double max_distance, MapMat
 }
 
 void LocalMap::forget_beyond(const Eigen::Vector3d& center, double radius) {
-  VoxelTable table(table_.size());
+  search::VoxelTable table(table_.size());
   std::vector<Cell> cells;
   cells.reserve(cells_.size());
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const Voxel& voxel = table_.voxels()[i];
+    const search::Voxel& voxel = table_.voxels()[i];
     if ((corner(voxel) - center).squaredNorm() <= radius * radius) {
       table.insert(voxel);
       cells.push_back(cells_[i]);
@@ -182,7 +182,7 @@ void LocalMap::forget_beyond(const Eigen::Vector3d& center, double radius) {
 }
 
 std::string LocalMap::to_bytes() const {
-  ByteWriter writer;
+  storage::ByteWriter writer;
   writer.value(voxel_m_);
   writer.value(capacity_);
   writer.vector(table_.voxels());
@@ -197,10 +197,10 @@ std::string LocalMap::to_bytes() const {
 }
 
 LocalMap LocalMap::from_bytes(const std::string& bytes) {
-  ByteReader reader(bytes);
+  storage::ByteReader reader(bytes);
   const auto voxel_m = reader.value<double>();
   LocalMap map(voxel_m, reader.value<std::size_t>());
-  for (const Voxel& voxel : reader.vector<Voxel>()) {
+  for (const search::Voxel& voxel : reader.vector<search::Voxel>()) {
     map.table_.insert(voxel);
     Cell& cell = map.cells_.emplace_back();
     cell.count = std::min<std::uint32_t>(reader.value<std::uint32_t>(), kMaxPoints);
@@ -212,4 +212,4 @@ LocalMap LocalMap::from_bytes(const std::string& bytes) {
   return map;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -7,7 +7,7 @@
 
 #include "odometry_search.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 constexpr double kCoarse = 3.0;          // voxel of the coarse map against the fine one's
@@ -22,7 +22,7 @@ double deviation_m(const Pose& predicted, const Pose& found) {
 
 }  // namespace
 
-Odometry::Odometry(const OdometryOptions& options, Compensation compensation, const SweepModel& sweep)
+Odometry::Odometry(const OdometryOptions& options, Compensation compensation, const cloud::SweepModel& sweep)
     : options_(options), compensation_(compensation), sweep_(sweep), last_gap_s_(sweep.period_s) {
   check(options_);
   sweep_.clockwise = compensation != Compensation::kRawCounterClockwise;
@@ -51,13 +51,13 @@ TrackedScan Odometry::track(const Scan& scan) const {
   TrackedScan tracked = prepare(scan);
   if (!last_) {
     tracked.T_map_lidar = origin_;
-    tracked.health.tracking = Tracking::kGood;
-    tracked.health.keypoints = tracked.sample.size();
+    tracked.tracking_status.tracking = Tracking::kGood;
+    tracked.tracking_status.keypoints = tracked.sample.size();
     return tracked;
   }
   const double threshold_m = threshold(gap_to(tracked.stamp_s));
   TrackedScan near = best_of(tracked, starts(scan.stamp_s), threshold_m);
-  if (committed_ > 1 && near.health.tracking != Tracking::kLost) {
+  if (committed_ > 1 && near.tracking_status.tracking != Tracking::kLost) {
     return near;
   }
   return best_of_wide(tracked, near);
@@ -78,18 +78,18 @@ TrackedScan Odometry::track_from(const Scan& scan, const Pose& T_map_lidar) cons
 void Odometry::judge(TrackedScan& tracked) const {
   const double gap_s = gap_to(tracked.stamp_s);
   const Vector6d change = tracked.velocity - last_->velocity;
-  Health& health = tracked.health;
-  health.tracking = health.degenerate_directions.empty() ? Tracking::kGood : Tracking::kDegenerate;
-  health.reason.clear();
-  const bool by_structure = health.structure >= kLeastStructure;
-  const bool doubtful = by_structure ? health.structure_share < kStructureShare * options_.min_inlier_share
-                                     : health.inlier_share < options_.min_inlier_share;
-  if (doubtful && health.margin < options_.min_margin) {
-    health.tracking = Tracking::kLost;
-    health.reason = "few points fit the map, and elsewhere hardly fewer";
+  TrackingStatus& tracking_status = tracked.tracking_status;
+  tracking_status.tracking = tracking_status.degenerate_directions.empty() ? Tracking::kGood : Tracking::kDegenerate;
+  tracking_status.reason.clear();
+  const bool by_structure = tracking_status.structure >= kLeastStructure;
+  const bool doubtful = by_structure ? tracking_status.structure_share < kStructureShare * options_.min_inlier_share
+                                     : tracking_status.inlier_share < options_.min_inlier_share;
+  if (doubtful && tracking_status.margin < options_.min_margin) {
+    tracking_status.tracking = Tracking::kLost;
+    tracking_status.reason = "few points fit the map, and elsewhere hardly fewer";
   } else if (committed_ > 1 && change.head<3>().norm() > options_.max_acceleration * std::max(gap_s, 0.1)) {
-    health.tracking = Tracking::kLost;
-    health.reason = "the motion jumps";
+    tracking_status.tracking = Tracking::kLost;
+    tracking_status.reason = "the motion jumps";
   }
 }
 
@@ -118,7 +118,7 @@ void Odometry::begin_map(const TrackedScan& first) {
   swept_at_ = first.T_map_lidar.translation();
 }
 
-/// How far the prediction missed; the second scan of a piece tells how the sensor moved while it took the first.
+/// How far the prediction missed; the second scan of a segment tells how the sensor moved while it took the first.
 void Odometry::learn_motion(const TrackedScan& tracked) {
   const double gap_s = gap_to(tracked.stamp_s);
   const Pose predicted = last_->T_map_lidar * exp_se3(gap_s * last_->velocity);
@@ -157,4 +157,4 @@ void Odometry::restart(const Pose& T_map_lidar) {
   committed_ = 0;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -7,7 +7,7 @@
 #include "loopmark/features/ground.hpp"
 #include "odometry_search.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 constexpr double kSampleVoxels = 0.5;  // points for the map: one in a cell of this many voxels
@@ -43,7 +43,7 @@ std::vector<float> Odometry::times(const PointCloud& cloud) const {
   if (compensation_ == Compensation::kRawGivenTimes) {
     return cloud.time_offset_s;
   }
-  return times_from_azimuth(cloud.points, sweep_);
+  return cloud::times_from_azimuth(cloud.points, sweep_);
 }
 
 TrackedScan Odometry::prepare(const Scan& scan) const {
@@ -61,7 +61,7 @@ TrackedScan Odometry::prepare(const Scan& scan) const {
   const double voxel_m = map_                     ? map_->voxel_m()
                          : options_.voxel_m > 0.0 ? options_.voxel_m
                                                   : voxel_for_scene(thin.points);
-  tracked.sample = select(thin, voxel_central_indices(thin.points, kSampleVoxels * voxel_m));
+  tracked.sample = select(thin, cloud::voxel_central_indices(thin.points, kSampleVoxels * voxel_m));
   if (deskews()) {
     tracked.sample.time_offset_s = times(tracked.sample);
   }
@@ -97,7 +97,7 @@ Vector6d Odometry::sweep_of_last(const TrackedScan& next) const {
 }
 
 std::vector<Eigen::Vector3f> Odometry::deskewed_sample(const TrackedScan& tracked) const {
-  return deskews() ? deskewed(tracked.sample.points, tracked.sample.time_offset_s, tracked.sweep_velocity)
+  return deskews() ? cloud::deskewed(tracked.sample.points, tracked.sample.time_offset_s, tracked.sweep_velocity)
                    : tracked.sample.points;
 }
 
@@ -112,12 +112,12 @@ std::vector<Eigen::Vector3d> Odometry::in_map(const TrackedScan& tracked) const 
 Keypoints Odometry::keypoints(const TrackedScan& tracked, double cell_m) const {
   const std::vector<Eigen::Vector3f> points = deskewed_sample(tracked);
   Keypoints result;
-  for (const std::size_t i : voxel_central_indices(points, cell_m)) {
+  for (const std::size_t i : cloud::voxel_central_indices(points, cell_m)) {
     result.points.push_back(points[i]);
   }
   if (committed_ == 1 ||
-      careful(tracked.stamp_s)) {  // before motion is sure, rings on the ground must not say that there is none
-    result.ground = ground_points(result.points, {});
+      initialising(tracked.stamp_s)) {  // before motion is sure, rings on the ground must not say that there is none
+    result.ground = features::ground_points(result.points, {});
   }
   return result;
 }
@@ -125,7 +125,7 @@ Keypoints Odometry::keypoints(const TrackedScan& tracked, double cell_m) const {
 PointCloud Odometry::deskewed_cloud(const Scan& scan, const Vector6d& velocity) const {
   PointCloud cloud = select(scan.cloud, in_range(scan.cloud.points, options_));
   if (deskews()) {
-    cloud.points = deskewed(cloud.points, times(cloud), velocity);
+    cloud.points = cloud::deskewed(cloud.points, times(cloud), velocity);
   }
   return cloud;
 }
@@ -144,4 +144,4 @@ double voxel_for_scene(const std::vector<Eigen::Vector3f>& points) {
   return std::clamp(static_cast<double>(*middle) / kVoxelsAcross, kLeast, kMost);
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

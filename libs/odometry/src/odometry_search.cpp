@@ -8,23 +8,23 @@
 
 #include "loopmark/core/parallel.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
-bool better(const Health& a, const Health& b) { return a.inlier_share > b.inlier_share; }
+bool better(const TrackingStatus& a, const TrackingStatus& b) { return a.inlier_share > b.inlier_share; }
 
 /// What of a scan fits: of its structure, where that was told apart from the ground.
-double share_that_fits(const Health& health) {
-  return health.structure >= kLeastStructure ? health.structure_share : health.inlier_share;
+double share_that_fits(const TrackingStatus& tracking_status) {
+  return tracking_status.structure >= kLeastStructure ? tracking_status.structure_share : tracking_status.inlier_share;
 }
 
 /// The rings of the ground fit best where the sensor stands; what rises from it tells. Without it, that nothing holds a
 /// direction tells against an answer.
-bool better_careful(const Health& a, const Health& b) {
+bool better_initialising(const TrackingStatus& a, const TrackingStatus& b) {
   constexpr double kUnheld = 0.8;
-  const auto score = [](const Health& health) {
-    const bool unheld = health.structure < kLeastStructure && !health.degenerate_directions.empty();
-    return share_that_fits(health) * (unheld ? kUnheld : 1.0);
+  const auto score = [](const TrackingStatus& tracking_status) {
+    const bool unheld = tracking_status.structure < kLeastStructure && !tracking_status.degenerate_directions.empty();
+    return share_that_fits(tracking_status) * (unheld ? kUnheld : 1.0);
   };
   return score(a) > score(b);
 }
@@ -100,9 +100,9 @@ void Odometry::align_to(const LocalMap& map, TrackedScan& tracked, const Start& 
     const Alignment found = align(keypoints(tracked, options_.keypoint_voxels * map.voxel_m()), map,
                                   tracked.T_map_lidar, threshold_m, options_);
     tracked.T_map_lidar = found.T_map_lidar;
-    tracked.health = found.health;
-    if (!careful(tracked.stamp_s)) {
-      tracked.health.structure = 0;
+    tracked.tracking_status = found.tracking_status;
+    if (!initialising(tracked.stamp_s)) {
+      tracked.tracking_status.structure = 0;
     }
     tracked.velocity = log_se3(last_->T_map_lidar.inverse() * tracked.T_map_lidar) / gap_s;
     tracked.sweep_velocity = during_sweep(tracked);
@@ -120,7 +120,7 @@ std::vector<Odometry::Start> Odometry::shortlist(const TrackedScan& prepared, co
     found[i] = align(points, *coarse_, starts[i].T_map_lidar, coarse_->voxel_m(), quick);
   });
   std::stable_sort(found.begin(), found.end(),
-                   [](const Alignment& a, const Alignment& b) { return better(a.health, b.health); });
+                   [](const Alignment& a, const Alignment& b) { return better(a.tracking_status, b.tracking_status); });
   std::vector<Start> kept;
   for (const Alignment& candidate : found) {
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const Start& start) {
@@ -134,12 +134,12 @@ std::vector<Odometry::Start> Odometry::shortlist(const TrackedScan& prepared, co
 }
 
 TrackedScan Odometry::best_of(const TrackedScan& prepared, const std::vector<Start>& starts, double threshold_m) const {
-  const auto ahead = careful(prepared.stamp_s) ? better_careful : better;
+  const auto ahead = initialising(prepared.stamp_s) ? better_initialising : better;
   std::optional<TrackedScan> best;
   for (const Start& start : starts) {
     TrackedScan tracked = prepared;
     align_from(tracked, start, threshold_m);
-    if (!best || ahead(tracked.health, best->health)) {
+    if (!best || ahead(tracked.tracking_status, best->tracking_status)) {
       best = std::move(tracked);
     }
   }
@@ -153,7 +153,7 @@ TrackedScan Odometry::best_of_wide(const TrackedScan& prepared, const TrackedSca
     answers.push_back(prepared);
     align_from(answers.back(), start, map_->voxel_m());
   }
-  if (committed_ == 1 && careful(prepared.stamp_s)) {
+  if (committed_ == 1 && initialising(prepared.stamp_s)) {
     for (const Start& start : straight_starts(prepared)) {
       answers.push_back(prepared);
       align_from(answers.back(), start, map_->voxel_m());
@@ -164,14 +164,16 @@ TrackedScan Odometry::best_of_wide(const TrackedScan& prepared, const TrackedSca
       align_to_deskewed_first(answer);
     }
   }
-  const bool doubtful = committed_ == 1 || careful(prepared.stamp_s);
-  const auto ahead = doubtful ? better_careful : better;
-  std::stable_sort(answers.begin(), answers.end(),
-                   [&](const TrackedScan& a, const TrackedScan& b) { return ahead(a.health, b.health); });
+  const bool doubtful = committed_ == 1 || initialising(prepared.stamp_s);
+  const auto ahead = doubtful ? better_initialising : better;
+  std::stable_sort(answers.begin(), answers.end(), [&](const TrackedScan& a, const TrackedScan& b) {
+    return ahead(a.tracking_status, b.tracking_status);
+  });
   TrackedScan& best = answers.front();
   for (const TrackedScan& other : answers) {
     if (!same_place(other.T_map_lidar, best.T_map_lidar, map_->voxel_m())) {
-      best.health.margin = share_that_fits(best.health) / std::max(share_that_fits(other.health), 1e-3);
+      best.tracking_status.margin =
+          share_that_fits(best.tracking_status) / std::max(share_that_fits(other.tracking_status), 1e-3);
       break;
     }
   }
@@ -179,7 +181,7 @@ TrackedScan Odometry::best_of_wide(const TrackedScan& prepared, const TrackedSca
   return best;
 }
 
-/// The first scan of a piece was taken in before any motion was known. Deskewed by the motion of `answer` it is
+/// The first scan of a segment was taken in before any motion was known. Deskewed by the motion of `answer` it is
 /// sharp if that is right; without this, standing still would fit best, as the rings of the ground do not move.
 void Odometry::align_to_deskewed_first(TrackedScan& answer) const {
   TrackedScan first = *last_;
@@ -189,4 +191,4 @@ void Odometry::align_to_deskewed_first(TrackedScan& answer) const {
   align_to(map, answer, {answer.T_map_lidar, answer.velocity}, map.voxel_m());
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -4,7 +4,7 @@
 
 #include "loopmark/odometry/odometry.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 
 constexpr std::size_t kLeastStructure = 4;  // keypoints above the ground that can tell one answer from another
 constexpr double kUsualGapS = 0.2;          // longer gaps between scans make the prediction less certain
@@ -23,4 +23,4 @@ struct Odometry::Start {
   Vector6d velocity;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// How a piece begins whose sensor may be moving already.
+// How a segment begins whose sensor may be moving already.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,18 +9,18 @@
 #include "loopmark/features/ground.hpp"
 #include "odometry_search.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
 constexpr double kCarefulGapS = 0.3;  // between scans
-constexpr double kStartM = 15.0;      // a piece starts within this distance
+constexpr double kStartM = 15.0;      // a segment starts within this distance
 constexpr double kFarthest = 20.0;    // metres between the first two scans, of what is searched
 constexpr double kMostSteps = 50.0;
 constexpr std::size_t kMostPoints = 3000;  // of a scan's structure, for a first look
 
 /// The points of a scan that rise from the ground, not more than kMostPoints.
 PointCloud structure(const PointCloud& cloud) {
-  const std::vector<bool> ground = ground_points(cloud.points, {});
+  const std::vector<bool> ground = features::ground_points(cloud.points, {});
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!ground[i]) {
@@ -51,16 +51,16 @@ double fit(const LocalMap& map, const std::vector<Eigen::Vector3d>& points) {
 }  // namespace
 
 /// While the motion is not sure, ground counts across its planes only, and what rises from it ranks the answers: at the
-/// start of a piece, and where nothing held a direction in the last scan. Where scans are far apart in time, most of
+/// start of a segment, and where nothing held a direction in the last scan. Where scans are far apart in time, most of
 /// what stands above the ground is new, and its rings lie elsewhere anyway.
-bool Odometry::careful(double stamp_s) const {
+bool Odometry::initialising(double stamp_s) const {
   return last_ && gap_to(stamp_s) < kCarefulGapS &&
-         (!last_->health.degenerate_directions.empty() ||
+         (!last_->tracking_status.degenerate_directions.empty() ||
           (last_->T_map_lidar.translation() - origin_.translation()).norm() < kStartM);
 }
 
-/// The few straight motions since the first scan of the piece that best bring together what rises from the ground. Both
-/// scans are deskewed by the motion that is tried.
+/// The few straight motions since the first scan of the segment that best bring together what rises from the ground.
+/// Both scans are deskewed by the motion that is tried.
 std::vector<Odometry::Start> Odometry::straight_starts(const TrackedScan& prepared) const {
   constexpr double kStepVoxels = 0.3;
   constexpr std::size_t kKept = 4;
@@ -103,4 +103,4 @@ std::vector<Odometry::Start> Odometry::straight_starts(const TrackedScan& prepar
   return kept;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

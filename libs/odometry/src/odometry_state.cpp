@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loopmark/core/byte_stream.hpp"
 #include "loopmark/odometry/odometry.hpp"
+#include "loopmark/storage/byte_stream.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 namespace {
 
-void write_pose(ByteWriter& writer, const Pose& pose) { writer.raw(pose.matrix().data(), 16); }
+void write_pose(storage::ByteWriter& writer, const Pose& pose) { writer.raw(pose.matrix().data(), 16); }
 
-Pose read_pose(ByteReader& reader) {
+Pose read_pose(storage::ByteReader& reader) {
   Pose pose;
   reader.raw(pose.matrix().data(), 16);
   return pose;
@@ -16,14 +16,14 @@ Pose read_pose(ByteReader& reader) {
 
 constexpr std::uint64_t kFormat = 0x6f646f6d65747234;  // "odometr4": changes with what is written
 
-void write_directions(ByteWriter& writer, const std::vector<Eigen::Vector3d>& directions) {
+void write_directions(storage::ByteWriter& writer, const std::vector<Eigen::Vector3d>& directions) {
   writer.value(directions.size());
   for (const Eigen::Vector3d& direction : directions) {
     writer.raw(direction.data(), 3);
   }
 }
 
-std::vector<Eigen::Vector3d> read_directions(ByteReader& reader) {
+std::vector<Eigen::Vector3d> read_directions(storage::ByteReader& reader) {
   std::vector<Eigen::Vector3d> directions;
   for (auto left = reader.value<std::size_t>(); left > 0; --left) {
     reader.raw(directions.emplace_back().data(), 3);
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector3d> read_directions(ByteReader& reader) {
 }  // namespace
 
 std::string Odometry::state() const {
-  ByteWriter writer;
+  storage::ByteWriter writer;
   writer.value(kFormat);
   write_pose(writer, origin_);
   writer.value(committed_);
@@ -48,18 +48,18 @@ std::string Odometry::state() const {
     write_pose(writer, last_->T_map_lidar);
     writer.raw(last_->velocity.data(), 6);
     writer.raw(last_->sweep_velocity.data(), 6);
-    write_directions(writer, last_->health.degenerate_directions);
+    write_directions(writer, last_->tracking_status.degenerate_directions);
     writer.points(last_->sample.points);
     writer.vector(last_->sample.time_offset_s);
     writer.text(map_->to_bytes());
     writer.text(coarse_->to_bytes());
   }
-  return sealed(writer.bytes());
+  return storage::sealed(writer.bytes());
 }
 
 void Odometry::set_state(const std::string& bytes) {
-  const std::string content = unsealed(bytes, "the saved state of the odometry");
-  ByteReader reader(content);
+  const std::string content = storage::unsealed(bytes, "the saved state of the odometry");
+  storage::ByteReader reader(content);
   if (reader.value<std::uint64_t>() != kFormat) {
     throw InputError("the saved state of the odometry is of another version of loopmark: map the log anew");
   }
@@ -76,7 +76,7 @@ void Odometry::set_state(const std::string& bytes) {
     last.T_map_lidar = read_pose(reader);
     reader.raw(last.velocity.data(), 6);
     reader.raw(last.sweep_velocity.data(), 6);
-    last.health.degenerate_directions = read_directions(reader);
+    last.tracking_status.degenerate_directions = read_directions(reader);
     last.sample.points = reader.points();
     last.sample.time_offset_s = reader.vector<float>();
     map_ = LocalMap::from_bytes(reader.text());
@@ -84,4 +84,4 @@ void Odometry::set_state(const std::string& bytes) {
   }
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

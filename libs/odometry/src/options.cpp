@@ -4,7 +4,7 @@
 
 #include "loopmark/odometry/local_map.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 
 void check(const OdometryOptions& o) {
   require_option(o.min_range_m >= 0.0 && o.max_range_m > o.min_range_m, "max_range_m", "must exceed min_range_m >= 0");
@@ -18,4 +18,4 @@ void check(const OdometryOptions& o) {
   require_option(o.point_weight >= 0.0 && o.point_weight <= 1.0, "point_weight", "must be 0 to 1");
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

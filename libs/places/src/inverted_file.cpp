@@ -9,7 +9,7 @@
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/random.hpp"
 
-namespace loopmark::places {
+namespace loopmark::places::internal {
 namespace {
 
 constexpr std::uint64_t kSeed = 20;
@@ -98,4 +98,4 @@ void InvertedFile::add(const Eigen::VectorXf& vector) {
   cell.members.insert(cell.members.end(), vector.data(), vector.data() + kShort);
 }
 
-}  // namespace loopmark::places
+}  // namespace loopmark::places::internal

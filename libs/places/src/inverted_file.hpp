@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace loopmark::places {
+namespace loopmark::places::internal {
 
-constexpr Eigen::Index kShort = 64;  ///< size of a projected signature
+constexpr Eigen::Index kShort = 64;  ///< size of a projected descriptor
 
 /// A fixed random projection from `size` numbers to 64 that keeps distances on average (Johnson-Lindenstrauss).
 Eigen::MatrixXf projection(Eigen::Index size);
@@ -49,4 +49,4 @@ class InvertedFile {
   std::size_t size_ = 0;
 };
 
-}  // namespace loopmark::places
+}  // namespace loopmark::places::internal

@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-namespace loopmark::places {
+namespace loopmark::places::internal {
 namespace {
 
 constexpr float kHighest = 6.0F;      ///< metres; what is higher counts as this high
@@ -36,7 +36,7 @@ float bilinear(const Eigen::MatrixXf& m, double row, double column) {
 
 }  // namespace
 
-Eigen::MatrixXf birdseye_image(const std::vector<Eigen::Vector3f>& points, const PlaceOptions& o) {
+Eigen::MatrixXf bev_image(const std::vector<Eigen::Vector3f>& points, const PlaceOptions& o) {
   const auto half = static_cast<Eigen::Index>(std::lround(o.radius_m / o.cell_m));
   Eigen::MatrixXf image = Eigen::MatrixXf::Zero(2 * half, 2 * half);
   const auto scale = static_cast<float>(1.0 / o.cell_m);
@@ -87,4 +87,4 @@ Eigen::MatrixXf direction_harmonics(const Eigen::MatrixXf& polar, const PlaceOpt
   return harmonics.cwiseAbs();
 }
 
-}  // namespace loopmark::places
+}  // namespace loopmark::places::internal

@@ -5,12 +5,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "loopmark/places/place_signature.hpp"
+#include "loopmark/places/place_descriptor.hpp"
 
-namespace loopmark::places {
+namespace loopmark::places::internal {
 
 /// Square root of the height of what stands in each cell, fading out towards the radius; x along rows.
-Eigen::MatrixXf birdseye_image(const std::vector<Eigen::Vector3f>& levelled_points, const PlaceOptions& options);
+Eigen::MatrixXf bev_image(const std::vector<Eigen::Vector3f>& levelled_points, const PlaceOptions& options);
 
 /// Magnitudes of the image's low frequencies on a polar grid: radii x angles.
 Eigen::MatrixXf polar_spectrum(const Eigen::MatrixXf& image, const PlaceOptions& options);
@@ -18,4 +18,4 @@ Eigen::MatrixXf polar_spectrum(const Eigen::MatrixXf& image, const PlaceOptions&
 /// Magnitudes of the first harmonics of each row: radii x harmonics.
 Eigen::MatrixXf direction_harmonics(const Eigen::MatrixXf& polar, const PlaceOptions& options);
 
-}  // namespace loopmark::places
+}  // namespace loopmark::places::internal

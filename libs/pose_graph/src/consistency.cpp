@@ -11,69 +11,69 @@
 #include "loopmark/core/parallel.hpp"
 #include "max_clique.hpp"
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 namespace {
 
-/// A loop turned so that it leads from the first piece of its group to the second (from the earlier node to the
-/// later one within one piece).
+/// A loop turned so that it leads from the first segment of its group to the second (from the earlier node to the
+/// later one within one segment).
 struct TurnedLoop {
   std::size_t from = 0;
   std::size_t to = 0;
   Pose T_from_to = Pose::Identity();
-  Matrix6d covariance_in_piece = Matrix6d::Zero();  ///< of its tangent, moved into the frame of the first piece
+  Matrix6d covariance_in_segment = Matrix6d::Zero();  ///< of its tangent, moved into the frame of the first segment
 
-  TurnedLoop(const PoseGraphEdge& edge, const Pieces& pieces)
+  TurnedLoop(const PoseGraphEdge& edge, const Segments& segments)
       : from(edge.from), to(edge.to), T_from_to(edge.T_from_to) {
-    const Matrix6d in_first = adjoint(pieces.T_piece_node[edge.from]);
-    covariance_in_piece = in_first * invert_information(edge.information) * in_first.transpose();
-    const std::size_t piece_from = pieces.piece_of[from];
-    const std::size_t piece_to = pieces.piece_of[to];
-    if (piece_from > piece_to || (piece_from == piece_to && from > to)) {
-      turn(pieces);
+    const Matrix6d in_first = adjoint(segments.T_segment_node[edge.from]);
+    covariance_in_segment = in_first * invert_information(edge.information) * in_first.transpose();
+    const std::size_t segment_from = segments.segment_of[from];
+    const std::size_t segment_to = segments.segment_of[to];
+    if (segment_from > segment_to || (segment_from == segment_to && from > to)) {
+      turn(segments);
     }
   }
 
  private:
-  void turn(const Pieces& pieces) {
+  void turn(const Segments& segments) {
     std::swap(from, to);
     T_from_to = T_from_to.inverse();
-    // Into the frame of the piece that is first now: back to the old `from`, through the loop, out to the piece.
-    const Matrix6d move = adjoint(pieces.T_piece_node[from] * T_from_to * pieces.T_piece_node[to].inverse());
-    covariance_in_piece = move * covariance_in_piece * move.transpose();
+    // Into the frame of the segment that is first now: back to the old `from`, through the loop, out to the segment.
+    const Matrix6d move = adjoint(segments.T_segment_node[from] * T_from_to * segments.T_segment_node[to].inverse());
+    covariance_in_segment = move * covariance_in_segment * move.transpose();
   }
 };
 
-double cycle_chi2(const Pieces& pieces, const TurnedLoop& a, const TurnedLoop& b) {
-  const Pose& T_A_i = pieces.T_piece_node[a.from];
-  const Pose& T_A_k = pieces.T_piece_node[b.from];
-  const Pose& T_B_j = pieces.T_piece_node[a.to];
-  const Pose& T_B_l = pieces.T_piece_node[b.to];
+double cycle_chi2(const Segments& segments, const TurnedLoop& a, const TurnedLoop& b) {
+  const Pose& T_A_i = segments.T_segment_node[a.from];
+  const Pose& T_A_k = segments.T_segment_node[b.from];
+  const Pose& T_B_j = segments.T_segment_node[a.to];
+  const Pose& T_B_l = segments.T_segment_node[b.to];
   const Pose T_A_B = T_A_i * a.T_from_to * T_B_j.inverse();
-  // The cycle i -> j -> l -> k -> i, seen from the frame of piece A; the identity when all is exact.
+  // The cycle i -> j -> l -> k -> i, seen from the frame of segment A; the identity when all is exact.
   const Vector6d error = log_se3(T_A_B * T_B_l * b.T_from_to.inverse() * T_A_k.inverse());
   const Matrix6d across = adjoint(T_A_B);
-  const Matrix6d covariance = a.covariance_in_piece + b.covariance_in_piece +
-                              pieces.covariance_between(a.from, b.from) +
-                              across * pieces.covariance_between(a.to, b.to) * across.transpose();
+  const Matrix6d covariance = a.covariance_in_segment + b.covariance_in_segment +
+                              segments.covariance_between(a.from, b.from) +
+                              across * segments.covariance_between(a.to, b.to) * across.transpose();
   const Vector6d solved = covariance.ldlt().solve(error);
   return error.dot(solved);
 }
 
-std::vector<TurnedLoop> turned_loops(const PoseGraph& graph, const Pieces& pieces,
+std::vector<TurnedLoop> turned_loops(const PoseGraph& graph, const Segments& segments,
                                      const std::vector<std::size_t>& edges) {
   std::vector<TurnedLoop> loops;
   loops.reserve(edges.size());
   for (const std::size_t e : edges) {
-    loops.emplace_back(graph.edges[e], pieces);
+    loops.emplace_back(graph.edges[e], segments);
   }
   return loops;
 }
 
-BitMatrix consistent_pairs(const Pieces& pieces, const std::vector<TurnedLoop>& loops, double threshold) {
+BitMatrix consistent_pairs(const Segments& segments, const std::vector<TurnedLoop>& loops, double threshold) {
   BitMatrix upper(loops.size());
   parallel_for(loops.size(), [&](std::size_t a) {
     for (std::size_t b = a + 1; b < loops.size(); ++b) {
-      if (cycle_chi2(pieces, loops[a], loops[b]) <= threshold) {
+      if (cycle_chi2(segments, loops[a], loops[b]) <= threshold) {
         upper.set(a, b);
       }
     }
@@ -129,7 +129,7 @@ std::vector<std::size_t> agreeing_places(const PoseGraph& graph, const LoopGroup
 }
 
 /// The member whose summed disagreement with the others is least; a forced one before any other.
-std::size_t medoid(const PoseGraph& graph, const Pieces& pieces, const LoopGroup& group,
+std::size_t medoid(const PoseGraph& graph, const Segments& segments, const LoopGroup& group,
                    const std::vector<TurnedLoop>& loops, const std::vector<std::size_t>& places) {
   constexpr std::size_t kCompared = 64;
   std::size_t best = places.front();
@@ -140,7 +140,7 @@ std::size_t medoid(const PoseGraph& graph, const Pieces& pieces, const LoopGroup
     }
     double sum = 0.0;
     for (std::size_t n = 0; n < std::min(kCompared, places.size()); ++n) {
-      sum += a == places[n] ? 0.0 : cycle_chi2(pieces, loops[a], loops[places[n]]);
+      sum += a == places[n] ? 0.0 : cycle_chi2(segments, loops[a], loops[places[n]]);
     }
     if (sum < least) {
       least = sum;
@@ -152,25 +152,25 @@ std::size_t medoid(const PoseGraph& graph, const Pieces& pieces, const LoopGroup
 
 }  // namespace
 
-double cycle_chi2(const PoseGraph& graph, const Pieces& pieces, std::size_t edge_a, std::size_t edge_b) {
-  return cycle_chi2(pieces, TurnedLoop(graph.edges[edge_a], pieces), TurnedLoop(graph.edges[edge_b], pieces));
+double cycle_chi2(const PoseGraph& graph, const Segments& segments, std::size_t edge_a, std::size_t edge_b) {
+  return cycle_chi2(segments, TurnedLoop(graph.edges[edge_a], segments), TurnedLoop(graph.edges[edge_b], segments));
 }
 
-std::vector<LoopGroup> group_loops(const PoseGraph& graph, const Pieces& pieces) {
+std::vector<LoopGroup> group_loops(const PoseGraph& graph, const Segments& segments) {
   std::map<std::pair<std::size_t, std::size_t>, LoopGroup> groups;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const PoseGraphEdge& edge = graph.edges[e];
     if (edge.kind == EdgeKind::kOdometry) {
       continue;
     }
-    const auto [first, second] = std::minmax(pieces.piece_of[edge.from], pieces.piece_of[edge.to]);
+    const auto [first, second] = std::minmax(segments.segment_of[edge.from], segments.segment_of[edge.to]);
     LoopGroup& group = groups[{first, second}];
-    group.first_piece = first;
-    group.second_piece = second;
+    group.first_segment = first;
+    group.second_segment = second;
     group.edges.push_back(e);
   }
   std::vector<LoopGroup> list;
-  for (auto& [pieces_joined, group] : groups) {
+  for (auto& [segments_joined, group] : groups) {
     group.agreeing = group.edges;
     group.representative = group.edges.front();
     list.push_back(std::move(group));
@@ -178,11 +178,11 @@ std::vector<LoopGroup> group_loops(const PoseGraph& graph, const Pieces& pieces)
   return list;
 }
 
-void keep_consistent(const PoseGraph& graph, const Pieces& pieces, const PoseGraphOptions& options,
+void keep_consistent(const PoseGraph& graph, const Segments& segments, const PoseGraphOptions& options,
                      std::vector<LoopGroup>& groups, std::vector<EdgeReport>& reports) {
   for (LoopGroup& group : groups) {
-    const std::vector<TurnedLoop> loops = turned_loops(graph, pieces, group.edges);
-    const BitMatrix consistent = consistent_pairs(pieces, loops, options.consistency_chi2);
+    const std::vector<TurnedLoop> loops = turned_loops(graph, segments, group.edges);
+    const BitMatrix consistent = consistent_pairs(segments, loops, options.consistency_chi2);
     const std::vector<std::size_t> places = agreeing_places(graph, group, consistent);
     group.agreeing.clear();
     for (std::size_t p = 0; p < group.edges.size(); ++p) {
@@ -196,8 +196,8 @@ void keep_consistent(const PoseGraph& graph, const Pieces& pieces, const PoseGra
         report.weight = 0.0;
       }
     }
-    group.representative = medoid(graph, pieces, group, loops, places);
+    group.representative = medoid(graph, segments, group, loops, places);
   }
 }
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

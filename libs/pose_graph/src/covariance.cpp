@@ -11,7 +11,7 @@
 #include "loopmark/pose_graph/pose_graph.hpp"
 #include "sparse_inverse.hpp"
 
-namespace loopmark {
+namespace loopmark::pose_graph {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -34,11 +34,11 @@ std::vector<Matrix6d> marginal_covariances(const PoseGraph& graph, const PoseGra
   if (anchored.anchors.empty() && !anchored.T_map_node.empty()) {
     anchored.anchors = {0};
   }
-  const std::vector<bool> fixed = pose_graph::fixed_nodes(anchored, solution.components);
+  const std::vector<bool> fixed = internal::fixed_nodes(anchored, solution.components);
   std::vector<std::size_t> place_of;
   const Eigen::SparseMatrix<double> normal =
-      pose_graph::normal_matrix(anchored, accepted_weights(solution), solution.T_map_node, fixed, place_of);
-  const std::vector<Matrix6d> blocks = pose_graph::inverse_diagonal_blocks(normal);
+      internal::normal_matrix(anchored, accepted_weights(solution), solution.T_map_node, fixed, place_of);
+  const std::vector<Matrix6d> blocks = internal::inverse_diagonal_blocks(normal);
   std::vector<Matrix6d> covariances(graph.T_map_node.size(), Matrix6d::Zero());
   for (std::size_t node = 0; node < covariances.size(); ++node) {
     if (place_of[node] != kNone) {
@@ -63,4 +63,4 @@ Matrix6d information_from_covariance(const Matrix6d& covariance, double floor_m,
   return solver.eigenvectors() * variances.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph

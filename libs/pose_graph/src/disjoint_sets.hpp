@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 
 /// Which things hang together; the root of a set is its smallest member.
 class DisjointSets {
@@ -34,4 +34,4 @@ class DisjointSets {
   std::vector<std::size_t> parent_;
 };
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

@@ -8,7 +8,7 @@
 
 #include "se3_jacobian.hpp"
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 namespace {
 
 using RowMajor76 = Eigen::Matrix<double, 7, 6, Eigen::RowMajor>;
@@ -108,4 +108,4 @@ bool EdgeCost::Evaluate(const double* const* parameters, double* residuals, doub
   return true;
 }
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

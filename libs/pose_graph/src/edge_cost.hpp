@@ -10,7 +10,7 @@
 
 #include "loopmark/pose_graph/pose_graph.hpp"
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 
 /// A pose as seven numbers: translation, then quaternion x, y, z, w.
 using PoseParameters = std::array<double, 7>;
@@ -53,4 +53,4 @@ class EdgeCost final : public ceres::SizedCostFunction<6, 7, 7> {
   Matrix6d root_;
 };
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

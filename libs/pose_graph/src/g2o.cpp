@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 
-namespace loopmark {
+namespace loopmark::pose_graph {
 namespace {
 
 /// d(xi on the left of Z) / d(g2o's error on the right): rotation vector = 2 * vector part of the quaternion.
@@ -55,7 +55,7 @@ class Reader {
   explicit Reader(const std::filesystem::path& path) : path_(path) {}
 
   PoseGraph read() {
-    std::istringstream content(read_file(path_));
+    std::istringstream content(storage::read_file(path_));
     std::string line;
     while (std::getline(content, line)) {
       ++line_;
@@ -194,7 +194,7 @@ class Reader {
 }  // namespace
 
 void write_g2o(const std::filesystem::path& path, const PoseGraph& graph) {
-  write_file_atomically(path, [&](std::ostream& out) {
+  storage::write_file_atomically(path, [&](std::ostream& out) {
     out << std::setprecision(17);
     for (std::size_t node = 0; node < graph.T_map_node.size(); ++node) {
       out << "VERTEX_SE3:QUAT " << node;
@@ -212,4 +212,4 @@ void write_g2o(const std::filesystem::path& path, const PoseGraph& graph) {
 
 PoseGraph read_g2o(const std::filesystem::path& path) { return Reader(path).read(); }
 
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph

@@ -10,7 +10,7 @@
 #include "disjoint_sets.hpp"
 #include "edge_cost.hpp"
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -153,4 +153,4 @@ Eigen::SparseMatrix<double> normal_matrix(const PoseGraph& graph, const std::vec
   return matrix;
 }
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

@@ -10,7 +10,7 @@
 
 #include "loopmark/pose_graph/pose_graph.hpp"
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 
 /// Components of the nodes over edges of positive weight; anchored ones first, then by first node.
 std::vector<PoseGraphComponent> find_components(const PoseGraph& graph, const std::vector<double>& weights);
@@ -37,4 +37,4 @@ Eigen::SparseMatrix<double> normal_matrix(const PoseGraph& graph, const std::vec
                                           const std::vector<Pose>& T_map_node, const std::vector<bool>& fixed,
                                           std::vector<std::size_t>& place_of);
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

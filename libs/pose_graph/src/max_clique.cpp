@@ -6,7 +6,7 @@
 #include <bit>
 #include <numeric>
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 namespace {
 
 constexpr std::size_t kStarts = 256;
@@ -90,4 +90,4 @@ std::vector<std::size_t> large_clique(const BitMatrix& related) {
   return best;
 }
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

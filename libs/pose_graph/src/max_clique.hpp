@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 
 /// A symmetric relation between `size` things as rows of bits; nothing is related to itself.
 class BitMatrix {
@@ -31,4 +31,4 @@ class BitMatrix {
 /// from the 256 best connected starts, always adding the candidate with most neighbours among the candidates.
 std::vector<std::size_t> large_clique(const BitMatrix& related);
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

@@ -9,11 +9,11 @@
 #include "least_squares.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/pose_graph/pose_graph.hpp"
-#include "pieces.hpp"
 #include "placement.hpp"
+#include "segments.hpp"
 #include "validate.hpp"
 
-namespace loopmark {
+namespace loopmark::pose_graph {
 namespace {
 
 using namespace pose_graph;
@@ -34,7 +34,7 @@ std::vector<double> weights_of(const std::vector<EdgeReport>& reports) {
 void measure_residuals(const PoseGraph& graph, const std::vector<Pose>& poses, std::vector<EdgeReport>& reports) {
   for (std::size_t e = 0; e < reports.size(); ++e) {
     const PoseGraphEdge& edge = graph.edges[e];
-    reports[e].residual = edge_residual(poses[edge.from], poses[edge.to], edge.T_from_to);
+    reports[e].residual = internal::edge_residual(poses[edge.from], poses[edge.to], edge.T_from_to);
     reports[e].chi2 = reports[e].residual.dot(edge.information * reports[e].residual);
   }
 }
@@ -79,8 +79,8 @@ bool update_weights(const PoseGraph& graph, double limit, double mu, std::vector
 /// Graduated non-convexity: from a nearly convex cost to truncated least squares, a few iterations each step.
 void graduate(const PoseGraph& graph, const PoseGraphOptions& options, PoseGraphSolution& solution) {
   const auto step = [&] {
-    const SolveReport report =
-        solve(graph, weights_of(solution.edges), kRobustStepIterations, 1e-4, solution.T_map_node);
+    const internal::SolveReport report =
+        internal::solve(graph, weights_of(solution.edges), kRobustStepIterations, 1e-4, solution.T_map_node);
     solution.iterations += report.iterations;
     ++solution.robust_steps;
     measure_residuals(graph, solution.T_map_node, solution.edges);
@@ -124,8 +124,8 @@ bool settle_verdicts(const PoseGraph& graph, const PoseGraphOptions& options, st
 }
 
 void solve_to_the_end(const PoseGraph& graph, const PoseGraphOptions& options, PoseGraphSolution& solution) {
-  const SolveReport report =
-      solve(graph, weights_of(solution.edges), options.max_iterations, 1e-9, solution.T_map_node);
+  const internal::SolveReport report =
+      internal::solve(graph, weights_of(solution.edges), options.max_iterations, 1e-9, solution.T_map_node);
   solution.iterations += report.iterations;
   solution.initial_cost = report.initial_cost;
   solution.final_cost = report.final_cost;
@@ -135,7 +135,7 @@ void solve_to_the_end(const PoseGraph& graph, const PoseGraphOptions& options, P
 }
 
 void fill_components(const PoseGraph& graph, PoseGraphSolution& solution) {
-  solution.components = find_components(graph, weights_of(solution.edges));
+  solution.components = internal::find_components(graph, weights_of(solution.edges));
   solution.component_of.assign(graph.T_map_node.size(), 0);
   for (std::size_t c = 0; c < solution.components.size(); ++c) {
     for (const std::size_t node : solution.components[c].nodes) {
@@ -156,19 +156,19 @@ PoseGraph with_anchor(const PoseGraph& graph) {
 
 PoseGraphSolution optimize(const PoseGraph& given, const PoseGraphOptions& options) {
   check(options);
-  validate(given);
+  internal::validate(given);
   const Stopwatch watch;
   const PoseGraph graph = with_anchor(given);
   PoseGraphSolution solution;
   solution.edges.resize(graph.edges.size());
-  const Pieces pieces = find_pieces(graph);
-  std::vector<LoopGroup> groups = group_loops(graph, pieces);
+  const internal::Segments segments = internal::find_segments(graph);
+  std::vector<internal::LoopGroup> groups = internal::group_loops(graph, segments);
   if (options.consistency_check) {
-    keep_consistent(graph, pieces, options, groups, solution.edges);
+    internal::keep_consistent(graph, segments, options, groups, solution.edges);
   }
   const std::size_t min_links = options.robust || options.consistency_check ? options.min_links : 1;
-  reject_thin_links(graph, pieces, groups, min_links, solution.edges);
-  solution.T_map_node = placed_poses(graph, pieces, groups, solution.edges, min_links);
+  internal::reject_thin_links(graph, segments, groups, min_links, solution.edges);
+  solution.T_map_node = internal::placed_poses(graph, segments, groups, solution.edges, min_links);
   if (options.robust) {
     graduate(graph, options, solution);
     settle_verdicts(graph, options, solution.edges);
@@ -176,7 +176,7 @@ PoseGraphSolution optimize(const PoseGraph& given, const PoseGraphOptions& optio
   solve_to_the_end(graph, options, solution);
   for (std::size_t round = 1; options.robust && round < kMaxRounds; ++round) {
     const bool changed = settle_verdicts(graph, options, solution.edges);
-    const bool thinner = reject_thin_links(graph, pieces, groups, min_links, solution.edges) > 0;
+    const bool thinner = internal::reject_thin_links(graph, segments, groups, min_links, solution.edges) > 0;
     if (!changed && !thinner) {
       break;
     }
@@ -201,4 +201,4 @@ std::string to_string(EdgeVerdict verdict) {
   return "unknown";
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph

@@ -6,7 +6,7 @@
 
 #include "disjoint_sets.hpp"
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 namespace {
 
 std::size_t believed_links(const PoseGraph& graph, const LoopGroup& group, const std::vector<EdgeReport>& reports,
@@ -21,32 +21,32 @@ std::size_t believed_links(const PoseGraph& graph, const LoopGroup& group, const
   return links;
 }
 
-DisjointSets join_pieces(const PoseGraph& graph, const Pieces& pieces, const std::vector<LoopGroup>& groups,
-                         const std::vector<EdgeReport>& reports, std::size_t min_links) {
-  DisjointSets sets(pieces.nodes.size());
+DisjointSets join_segments(const PoseGraph& graph, const Segments& segments, const std::vector<LoopGroup>& groups,
+                           const std::vector<EdgeReport>& reports, std::size_t min_links) {
+  DisjointSets sets(segments.nodes.size());
   for (const LoopGroup& group : groups) {
     if (believed_links(graph, group, reports, min_links) >= min_links) {
-      sets.join(group.first_piece, group.second_piece);
+      sets.join(group.first_segment, group.second_segment);
     }
   }
   return sets;
 }
 
-std::vector<bool> anchored_pieces(const PoseGraph& graph, const Pieces& pieces) {
-  std::vector<bool> anchored(pieces.nodes.size(), false);
+std::vector<bool> anchored_segments(const PoseGraph& graph, const Segments& segments) {
+  std::vector<bool> anchored(segments.nodes.size(), false);
   for (const std::size_t node : graph.anchors) {
-    anchored[pieces.piece_of[node]] = true;
+    anchored[segments.segment_of[node]] = true;
   }
   return anchored;
 }
 
-/// Groups that join two pieces, those with most believed links first.
+/// Groups that join two segments, those with most believed links first.
 std::vector<const LoopGroup*> strongest_first(const PoseGraph& graph, const std::vector<LoopGroup>& groups,
                                               const std::vector<EdgeReport>& reports, std::size_t min_links) {
   std::vector<std::pair<std::size_t, const LoopGroup*>> ranked;
   for (const LoopGroup& group : groups) {
     const std::size_t links = believed_links(graph, group, reports, min_links);
-    if (group.first_piece != group.second_piece && links >= min_links) {
+    if (group.first_segment != group.second_segment && links >= min_links) {
       ranked.emplace_back(links, &group);
     }
   }
@@ -60,22 +60,23 @@ std::vector<const LoopGroup*> strongest_first(const PoseGraph& graph, const std:
 
 }  // namespace
 
-std::vector<std::size_t> joined_sets(const PoseGraph& graph, const Pieces& pieces, const std::vector<LoopGroup>& groups,
-                                     const std::vector<EdgeReport>& reports, std::size_t min_links) {
-  DisjointSets sets = join_pieces(graph, pieces, groups, reports, min_links);
-  std::vector<std::size_t> set_of(pieces.nodes.size());
+std::vector<std::size_t> joined_sets(const PoseGraph& graph, const Segments& segments,
+                                     const std::vector<LoopGroup>& groups, const std::vector<EdgeReport>& reports,
+                                     std::size_t min_links) {
+  DisjointSets sets = join_segments(graph, segments, groups, reports, min_links);
+  std::vector<std::size_t> set_of(segments.nodes.size());
   for (std::size_t p = 0; p < set_of.size(); ++p) {
     set_of[p] = sets.root(p);
   }
   return set_of;
 }
 
-std::size_t reject_thin_links(const PoseGraph& graph, const Pieces& pieces, const std::vector<LoopGroup>& groups,
+std::size_t reject_thin_links(const PoseGraph& graph, const Segments& segments, const std::vector<LoopGroup>& groups,
                               std::size_t min_links, std::vector<EdgeReport>& reports) {
-  const std::vector<std::size_t> set_of = joined_sets(graph, pieces, groups, reports, min_links);
+  const std::vector<std::size_t> set_of = joined_sets(graph, segments, groups, reports, min_links);
   std::size_t rejected = 0;
   for (const LoopGroup& group : groups) {
-    if (set_of[group.first_piece] == set_of[group.second_piece]) {
+    if (set_of[group.first_segment] == set_of[group.second_segment]) {
       continue;
     }
     for (const std::size_t e : group.edges) {
@@ -89,26 +90,27 @@ std::size_t reject_thin_links(const PoseGraph& graph, const Pieces& pieces, cons
   return rejected;
 }
 
-std::vector<Pose> placed_poses(const PoseGraph& graph, const Pieces& pieces, const std::vector<LoopGroup>& groups,
+std::vector<Pose> placed_poses(const PoseGraph& graph, const Segments& segments, const std::vector<LoopGroup>& groups,
                                const std::vector<EdgeReport>& reports, std::size_t min_links) {
-  std::vector<bool> anchored = anchored_pieces(graph, pieces);
-  std::vector<Pose> T_map_piece(pieces.nodes.size(), Pose::Identity());
-  DisjointSets sets(pieces.nodes.size());
+  std::vector<bool> anchored = anchored_segments(graph, segments);
+  std::vector<Pose> T_map_segment(segments.nodes.size(), Pose::Identity());
+  DisjointSets sets(segments.nodes.size());
   for (const LoopGroup* group : strongest_first(graph, groups, reports, min_links)) {
-    const std::size_t a = sets.root(group->first_piece);
-    const std::size_t b = sets.root(group->second_piece);
+    const std::size_t a = sets.root(group->first_segment);
+    const std::size_t b = sets.root(group->second_segment);
     if (a == b || (anchored[a] && anchored[b])) {
       continue;
     }
     const PoseGraphEdge& edge = graph.edges[group->representative];
-    const Pose from = T_map_piece[pieces.piece_of[edge.from]] * pieces.T_piece_node[edge.from] * edge.T_from_to;
-    const Pose to = T_map_piece[pieces.piece_of[edge.to]] * pieces.T_piece_node[edge.to];
+    const Pose from =
+        T_map_segment[segments.segment_of[edge.from]] * segments.T_segment_node[edge.from] * edge.T_from_to;
+    const Pose to = T_map_segment[segments.segment_of[edge.to]] * segments.T_segment_node[edge.to];
     const std::size_t moving = anchored[b] || (!anchored[a] && b < a) ? a : b;
-    const bool moves_to = sets.root(pieces.piece_of[edge.to]) == moving;
+    const bool moves_to = sets.root(segments.segment_of[edge.to]) == moving;
     const Pose step = moves_to ? from * to.inverse() : to * from.inverse();
-    for (std::size_t p = 0; p < T_map_piece.size(); ++p) {
+    for (std::size_t p = 0; p < T_map_segment.size(); ++p) {
       if (sets.root(p) == moving) {
-        T_map_piece[p] = step * T_map_piece[p];
+        T_map_segment[p] = step * T_map_segment[p];
       }
     }
     sets.join(a, b);
@@ -116,7 +118,7 @@ std::vector<Pose> placed_poses(const PoseGraph& graph, const Pieces& pieces, con
   }
   std::vector<Pose> poses(graph.T_map_node.size());
   for (std::size_t node = 0; node < poses.size(); ++node) {
-    poses[node] = T_map_piece[pieces.piece_of[node]] * pieces.T_piece_node[node];
+    poses[node] = T_map_segment[segments.segment_of[node]] * segments.T_segment_node[node];
   }
   for (const std::size_t node : graph.anchors) {
     poses[node] = graph.T_map_node[node];
@@ -124,4 +126,4 @@ std::vector<Pose> placed_poses(const PoseGraph& graph, const Pieces& pieces, con
   return poses;
 }
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 namespace {
 
 /// Coefficients of the closed forms; series below 0.05 rad, where the fractions lose digits.
@@ -49,4 +49,4 @@ Matrix6d left_jacobian_inverse(const Vector6d& xi) {
   return inverse;
 }
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

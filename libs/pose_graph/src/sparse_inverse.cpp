@@ -5,7 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <stdexcept>
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -104,4 +104,4 @@ std::vector<Matrix6d> inverse_diagonal_blocks(const Sparse& matrix) {
   return blocks;
 }
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

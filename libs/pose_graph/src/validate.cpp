@@ -7,8 +7,7 @@
 
 #include "loopmark/core/error.hpp"
 
-namespace loopmark {
-namespace pose_graph {
+namespace loopmark::pose_graph::internal {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, const std::string& problem) {
@@ -66,14 +65,4 @@ void validate(const PoseGraph& graph) {
   }
 }
 
-}  // namespace pose_graph
-
-void check(const PoseGraphOptions& o) {
-  require_option(o.inlier_chi2 > 0.0, "inlier_chi2", "must be positive");
-  require_option(o.consistency_chi2 > 0.0, "consistency_chi2", "must be positive");
-  require_option(o.min_links >= 1, "min_links", "must be at least 1");
-  require_option(o.max_iterations >= 1, "max_iterations", "must be at least 1");
-  require_option(o.convexity_step > 1.0, "convexity_step", "must be above 1");
-}
-
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph::internal

@@ -4,9 +4,9 @@
 
 #include "loopmark/pose_graph/pose_graph.hpp"
 
-namespace loopmark::pose_graph {
+namespace loopmark::pose_graph::internal {
 
 /// Throws InputError naming the node or edge whose numbers make no sense.
 void validate(const PoseGraph& graph);
 
-}  // namespace loopmark::pose_graph
+}  // namespace loopmark::pose_graph::internal

@@ -9,12 +9,12 @@
 
 #include "pairing.hpp"
 
-namespace loopmark {
+namespace loopmark::refinement {
 namespace {
 
-using icp_detail::find_pairs;
-using icp_detail::linearise;
-using icp_detail::Pairs;
+using internal::find_pairs;
+using internal::linearise;
+using internal::Pairs;
 
 void require_normals(const Surface& source, const IcpTarget& target, IcpMetric metric) {
   const bool of_target = metric != IcpMetric::kPointToPoint;
@@ -42,15 +42,15 @@ bool is_small(const Vector6d& xi, const IcpOptions& options) {
 
 /// Inliers, residual, information and weak directions at the final motion.
 void judge(const Surface& source, const IcpTarget& target, const IcpOptions& options, const Eigen::Vector3d& centre,
-           IcpResult& result, Pairs& pairs) {
-  find_pairs(source, target, result.T_target_source, options, pairs);
-  const NormalEquations sums =
-      linearise(source, target, result.T_target_source, centre, options.metric, options, pairs);
+           IcpResult& result, internal::Pairs& pairs) {
+  internal::find_pairs(source, target, result.T_target_source, options, pairs);
+  const least_squares::NormalEquations sums =
+      internal::linearise(source, target, result.T_target_source, centre, options.metric, options, pairs);
   result.inliers = sums.pairs;
   result.inlier_share =
       static_cast<double>(sums.pairs) / static_cast<double>(std::max<std::size_t>(1, source.points.size()));
   if (!(sums.weight > 0.0)) {
-    result.covariance = uncertainty_of(sums, 1.0).covariance;
+    result.covariance = least_squares::uncertainty_of(sums, 1.0).covariance;
     return;
   }
   const double freedom = std::max(1.0, static_cast<double>(sums.residuals) - 6.0);
@@ -58,13 +58,15 @@ void judge(const Surface& source, const IcpTarget& target, const IcpOptions& opt
   const double variance = sums.cost / (freedom * mean_weight);
   result.rms_m = std::sqrt(sums.cost / sums.weight);
   const double floor = options.noise_floor_m * options.noise_floor_m;
-  const Uncertainty uncertainty = about_origin(uncertainty_of(sums, std::max(variance, floor)), centre);
+  const least_squares::Uncertainty uncertainty =
+      least_squares::about_origin(least_squares::uncertainty_of(sums, std::max(variance, floor)), centre);
   result.information = uncertainty.information;
   result.covariance = uncertainty.covariance;
   const bool plane = target.has_normals();
-  result.constraint = constraint_of(
-      plane ? linearise(source, target, result.T_target_source, centre, IcpMetric::kPointToPlane, options, pairs)
-            : sums);
+  result.constraint =
+      least_squares::constraint_of(plane ? internal::linearise(source, target, result.T_target_source, centre,
+                                                               IcpMetric::kPointToPlane, options, pairs)
+                                         : sums);
   result.weak_directions = result.constraint.weak(options.weak_strength);
 }
 
@@ -109,17 +111,17 @@ IcpResult icp(const Surface& source, const IcpTarget& target, const Pose& initia
   IcpResult result;
   result.T_target_source = initial;
   const Eigen::Vector3d centre = centre_of(source, initial);
-  Pairs pairs;
+  internal::Pairs pairs;
   while (result.iterations < options.max_iterations) {
-    find_pairs(source, target, result.T_target_source, options, pairs);
-    const NormalEquations sums =
-        linearise(source, target, result.T_target_source, centre, options.metric, options, pairs);
+    internal::find_pairs(source, target, result.T_target_source, options, pairs);
+    const least_squares::NormalEquations sums =
+        internal::linearise(source, target, result.T_target_source, centre, options.metric, options, pairs);
     if (sums.pairs < std::max<std::size_t>(3, options.min_pairs)) {
       result.stop = IcpStop::kTooFewPairs;
       break;
     }
-    const Vector6d xi = gauss_newton_step(sums);
-    result.T_target_source = move_about(centre, xi) * result.T_target_source;
+    const Vector6d xi = least_squares::gauss_newton_step(sums);
+    result.T_target_source = least_squares::move_about(centre, xi) * result.T_target_source;
     ++result.iterations;
     if (is_small(xi, options)) {
       result.stop = IcpStop::kConverged;
@@ -133,4 +135,4 @@ IcpResult icp(const Surface& source, const IcpTarget& target, const Pose& initia
   return result;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::refinement

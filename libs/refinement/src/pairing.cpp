@@ -7,7 +7,7 @@
 
 #include "loopmark/core/parallel.hpp"
 
-namespace loopmark::icp_detail {
+namespace loopmark::refinement::internal {
 namespace {
 
 constexpr std::size_t kBlock = 1024;
@@ -15,7 +15,7 @@ constexpr std::size_t kBlock = 1024;
 constexpr double kLeastNormalCosine = 0.5;
 
 /// Upper bound of the squared search distance from the pair found in the iteration before.
-float bound_from(const CellGrid& grid, const Eigen::Vector3f& moved, std::uint32_t place, float max_squared) {
+float bound_from(const search::CellGrid& grid, const Eigen::Vector3f& moved, std::uint32_t place, float max_squared) {
   if (place == kUnpaired) {
     return max_squared;
   }
@@ -25,7 +25,7 @@ float bound_from(const CellGrid& grid, const Eigen::Vector3f& moved, std::uint32
 
 /// Leaves out pairs whose target point is nearer to another source point.
 void keep_best_buddies(const IcpTarget& target, Pairs& pairs, const IcpOptions& options) {
-  const CellGrid sources(pairs.moved, static_cast<float>(2.0 * options.max_distance_m));
+  const search::CellGrid sources(pairs.moved, static_cast<float>(2.0 * options.max_distance_m));
   const float max_squared = static_cast<float>(options.max_distance_m * options.max_distance_m);
   parallel_for(
       pairs.place.size(),
@@ -77,12 +77,14 @@ void find_pairs(const Surface& source, const IcpTarget& target, const Pose& T_ta
   }
 }
 
-NormalEquations linearise(const Surface& source, const IcpTarget& target, const Pose& T_target_source,
-                          const Eigen::Vector3d& centre, IcpMetric metric, const IcpOptions& options,
-                          const Pairs& pairs) {
+least_squares::NormalEquations linearise(const Surface& source, const IcpTarget& target, const Pose& T_target_source,
+                                         const Eigen::Vector3d& centre, IcpMetric metric, const IcpOptions& options,
+                                         const Pairs& pairs) {
   const Eigen::Matrix3d R = T_target_source.linear();
-  const auto weigh = [&](double r2) { return robust_weight(options.kernel, r2, options.kernel_scale_m); };
-  const auto add = [&](NormalEquations& sums, std::size_t i) {
+  const auto weigh = [&](double r2) {
+    return least_squares::robust_weight(options.kernel, r2, options.kernel_scale_m);
+  };
+  const auto add = [&](least_squares::NormalEquations& sums, std::size_t i) {
     const Eigen::Vector3d moved = T_target_source * source.points[i].cast<double>() - centre;
     const Eigen::Vector3d found = target.grid().point(pairs.place[i]).cast<double>() - centre;
     const Eigen::Vector3d residual = moved - found;
@@ -112,9 +114,9 @@ NormalEquations linearise(const Surface& source, const IcpTarget& target, const 
     sums.add_general(moved, residual, information, weigh(residual.dot(information * residual)));
   };
   return parallel_reduce_ordered(
-      pairs.place.size(), kBlock, NormalEquations{},
+      pairs.place.size(), kBlock, least_squares::NormalEquations{},
       [&](std::size_t begin, std::size_t end) {
-        NormalEquations sums;
+        least_squares::NormalEquations sums;
         for (std::size_t i = begin; i < end; ++i) {
           if (pairs.place[i] != kUnpaired) {
             add(sums, i);
@@ -122,7 +124,7 @@ NormalEquations linearise(const Surface& source, const IcpTarget& target, const 
         }
         return sums;
       },
-      [](NormalEquations& total, const NormalEquations& part) { total += part; });
+      [](least_squares::NormalEquations& total, const least_squares::NormalEquations& part) { total += part; });
 }
 
-}  // namespace loopmark::icp_detail
+}  // namespace loopmark::refinement::internal

@@ -7,7 +7,7 @@
 
 #include "loopmark/refinement/icp.hpp"
 
-namespace loopmark::icp_detail {
+namespace loopmark::refinement::internal {
 
 constexpr std::uint32_t kUnpaired = std::numeric_limits<std::uint32_t>::max();
 
@@ -22,8 +22,8 @@ void find_pairs(const Surface& source, const IcpTarget& target, const Pose& T_ta
                 Pairs& pairs);
 
 /// Sums of the metric over the pairs, about `centre`, in a fixed order.
-NormalEquations linearise(const Surface& source, const IcpTarget& target, const Pose& T_target_source,
-                          const Eigen::Vector3d& centre, IcpMetric metric, const IcpOptions& options,
-                          const Pairs& pairs);
+least_squares::NormalEquations linearise(const Surface& source, const IcpTarget& target, const Pose& T_target_source,
+                                         const Eigen::Vector3d& centre, IcpMetric metric, const IcpOptions& options,
+                                         const Pairs& pairs);
 
-}  // namespace loopmark::icp_detail
+}  // namespace loopmark::refinement::internal

@@ -8,7 +8,7 @@
 
 #include "loopmark/core/parallel.hpp"
 
-namespace loopmark {
+namespace loopmark::registration::internal {
 namespace {
 
 constexpr double kAcross = 0.05;     // weight of the residual inside a plane
@@ -34,13 +34,13 @@ struct NormalEquations {
 
 /// Adds one pair: p of the source (moved), q of the target, and the one of both that is the surface, with its normal in
 /// the target's frame. r = q - p, weight matrix W = a diag(1, 1, u) + (1 - a) planarity n n^T, Jacobian [-I, hat(p)].
-void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Eigen::Vector3f& q, const Patch& surface,
+void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Eigen::Vector3f& q, const surfels::Surfel& surface,
               const Eigen::Vector3f& normal, double scale_m) {
   const Eigen::Vector3d point = p.cast<double>();
   const Eigen::Vector3d n = normal.cast<double>();
   const Eigen::Vector3d r = q.cast<double>() - point;
   const double blob = 1.0 - surface.planarity;
-  // Ground would only brake: the nearest patch of a plane is near wherever one stands.
+  // Ground would only brake: the nearest surfel of a plane is near wherever one stands.
   const double across = surface.height < kGroundHeight ? 0.0 : kAcross + (1.0 - kAcross) * blob * blob * 0.5;
   // A lone ring on a wall is a line: its normal is anyone's guess, and its height is the sensor's, not the wall's.
   const Eigen::Matrix3d w = across * Eigen::Vector3d(1.0, 1.0, kUpright).asDiagonal().toDenseMatrix() +
@@ -61,7 +61,7 @@ void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Eigen::Vecto
   ++sum.used;
 }
 
-/// The terms of patches 0 to `count` - 1, summed block by block: the same at any thread count. `add` adds those of one.
+/// The terms of surfels 0 to `count` - 1, summed block by block: the same at any thread count. `add` adds those of one.
 template <class Add>
 NormalEquations sum_of_terms(std::size_t count, const Add& add) {
   constexpr std::size_t kBlock = 2048;
@@ -79,23 +79,23 @@ NormalEquations sum_of_terms(std::size_t count, const Add& add) {
   return all;
 }
 
-/// Of the source's patches that have a partner within reach in the target.
-NormalEquations equations(const std::vector<Patch>& source, const PatchMap& target, const Eigen::Isometry3f& T,
-                          float reach_m, double scale_m) {
+/// Of the source's surfels that have a partner within reach in the target.
+NormalEquations equations(const std::vector<surfels::Surfel>& source, const surfels::SurfelMap& target,
+                          const Eigen::Isometry3f& T, float reach_m, double scale_m) {
   return sum_of_terms(source.size(), [&](std::size_t i, NormalEquations& sum) {
     const Eigen::Vector3f p = T * source[i].mean;
-    if (const Patch* partner = target.nearest(p, reach_m)) {
+    if (const surfels::Surfel* partner = target.nearest(p, reach_m)) {
       add_term(sum, p, partner->mean, *partner, partner->normal, scale_m);
     }
   });
 }
 
-/// Of the target's patches that have a partner within reach in the source.
-NormalEquations equations_back(const PatchMap& source, const std::vector<Patch>& target, const Eigen::Isometry3f& T,
-                               float reach_m, double scale_m) {
+/// Of the target's surfels that have a partner within reach in the source.
+NormalEquations equations_back(const surfels::SurfelMap& source, const std::vector<surfels::Surfel>& target,
+                               const Eigen::Isometry3f& T, float reach_m, double scale_m) {
   const Eigen::Isometry3f back = T.inverse();
   return sum_of_terms(target.size(), [&](std::size_t i, NormalEquations& sum) {
-    if (const Patch* partner = source.nearest(back * target[i].mean, reach_m)) {
+    if (const surfels::Surfel* partner = source.nearest(back * target[i].mean, reach_m)) {
       add_term(sum, T * partner->mean, target[i].mean, *partner, T.linear() * partner->normal, scale_m);
     }
   });
@@ -125,18 +125,18 @@ Alignment solve(const Equations& equations_at, const Pose& start, int iterations
 
 }  // namespace
 
-Alignment align_patches(const std::vector<Patch>& source, const PatchMap& target, const Pose& start, float reach_m,
-                        double scale_m, int iterations) {
+Alignment align_surfels(const std::vector<surfels::Surfel>& source, const surfels::SurfelMap& target, const Pose& start,
+                        float reach_m, double scale_m, int iterations) {
   return solve([&](const Eigen::Isometry3f& T) { return equations(source, target, T, reach_m, scale_m); }, start,
                iterations);
 }
 
-Alignment align_both_ways(const PatchMap& source, const PatchMap& target, const Pose& start, float reach_m,
-                          double scale_m, int iterations) {
+Alignment align_both_ways(const surfels::SurfelMap& source, const surfels::SurfelMap& target, const Pose& start,
+                          float reach_m, double scale_m, int iterations) {
   return solve(
       [&](const Eigen::Isometry3f& T) {
-        NormalEquations sum = equations(source.patches(), target, T, reach_m, scale_m);
-        sum += equations_back(source, target.patches(), T, reach_m, scale_m);
+        NormalEquations sum = equations(source.surfels(), target, T, reach_m, scale_m);
+        sum += equations_back(source, target.surfels(), T, reach_m, scale_m);
         return sum;
       },
       start, iterations);
@@ -144,8 +144,8 @@ Alignment align_both_ways(const PatchMap& source, const PatchMap& target, const 
 
 namespace {
 
-/// Appends `count` patches of `from` (at most all) at even steps.
-void take_evenly(const std::vector<const Patch*>& from, std::size_t count, std::vector<Patch>& to) {
+/// Appends `count` surfels of `from` (at most all) at even steps.
+void take_evenly(const std::vector<const surfels::Surfel*>& from, std::size_t count, std::vector<surfels::Surfel>& to) {
   count = std::min(count, from.size());
   for (std::size_t i = 0; i < count; ++i) {
     to.push_back(*from[i * from.size() / count]);
@@ -153,38 +153,39 @@ void take_evenly(const std::vector<const Patch*>& from, std::size_t count, std::
 }
 
 template <class Belongs>
-std::vector<Patch> sampled_where(const std::vector<Patch>& patches, std::size_t count, Belongs belongs) {
-  std::vector<const Patch*> fitting;
-  for (const Patch& patch : patches) {
-    if (belongs(patch)) {
-      fitting.push_back(&patch);
+std::vector<surfels::Surfel> sampled_where(const std::vector<surfels::Surfel>& surfels, std::size_t count,
+                                           Belongs belongs) {
+  std::vector<const surfels::Surfel*> fitting;
+  for (const surfels::Surfel& surfel : surfels) {
+    if (belongs(surfel)) {
+      fitting.push_back(&surfel);
     }
   }
-  std::vector<Patch> chosen;
+  std::vector<surfels::Surfel> chosen;
   take_evenly(fitting, count, chosen);
   return chosen;
 }
 
 }  // namespace
 
-std::vector<Patch> sampled(const std::vector<Patch>& patches, std::size_t count) {
-  std::vector<const Patch*> structure;
-  std::vector<const Patch*> ground;
-  for (const Patch& patch : patches) {
-    (patch.height > kStructureHeight ? structure : ground).push_back(&patch);
+std::vector<surfels::Surfel> sampled(const std::vector<surfels::Surfel>& surfels, std::size_t count) {
+  std::vector<const surfels::Surfel*> structure;
+  std::vector<const surfels::Surfel*> ground;
+  for (const surfels::Surfel& surfel : surfels) {
+    (surfel.height > kStructureHeight ? structure : ground).push_back(&surfel);
   }
-  std::vector<Patch> chosen;
+  std::vector<surfels::Surfel> chosen;
   take_evenly(structure, std::max(count / 2, count - std::min(count, ground.size())), chosen);
   take_evenly(ground, count - chosen.size(), chosen);
   return chosen;
 }
 
-std::vector<Patch> sampled_structure(const std::vector<Patch>& patches, std::size_t count) {
-  return sampled_where(patches, count, [](const Patch& patch) { return patch.height > kStructureHeight; });
+std::vector<surfels::Surfel> sampled_structure(const std::vector<surfels::Surfel>& surfels, std::size_t count) {
+  return sampled_where(surfels, count, [](const surfels::Surfel& surfel) { return surfel.height > kStructureHeight; });
 }
 
-std::vector<Patch> sampled_ground(const std::vector<Patch>& patches, std::size_t count) {
-  return sampled_where(patches, count, [](const Patch& patch) { return patch.height < kGroundHeight; });
+std::vector<surfels::Surfel> sampled_ground(const std::vector<surfels::Surfel>& surfels, std::size_t count) {
+  return sampled_where(surfels, count, [](const surfels::Surfel& surfel) { return surfel.height < kGroundHeight; });
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::registration::internal

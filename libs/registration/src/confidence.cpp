@@ -7,30 +7,30 @@
 
 #include "confidence_curves.hpp"
 
-namespace loopmark {
+namespace loopmark::registration::internal {
 namespace {
 
 /// How much of each scene a hypothesis is; each two are shares of one.
-std::array<double, kScenes> scene_shares(const Features& features) {
+std::array<double, kScenes> mixture_weights(const Features& features) {
   const auto rise = [](double value, double from, double to) {
     return std::clamp((value - from) / (to - from), 0.0, 1.0);
   };
-  const double apart_m = -10.0 * std::log(std::max(feature(features, "near"), 1e-9));
-  const double much = rise(feature(features, "fewer"), kLittle, kMuch);
+  const double apart_m = -10.0 * std::log(std::max(feature(features, "proximity"), 1e-9));
+  const double much = rise(feature(features, "structure_fewer"), kLittle, kMuch);
   const double far = rise(apart_m, kNear, kFar);
-  const double both_dense = rise(feature(features, "fill"), kSparse, kDense);
-  const double one_dense = rise(feature(features, "fill_more"), kBothSparse, kOneDense);
+  const double both_dense = rise(feature(features, "density_ratio"), kSparse, kDense);
+  const double one_dense = rise(feature(features, "density_ratio_more"), kBothSparse, kOneDense);
   return {1.0 - much, much, 1.0 - far, far, 1.0 - both_dense, both_dense, 1.0 - one_dense, one_dense};
 }
 
 /// The value of a feature's curves, mixed by the shares of the scenes.
-double worth_of(const Worth& w, double value, const std::array<double, kScenes>& shares) {
+double weight_of(const WeightCurve& w, double value, const std::array<double, kScenes>& shares) {
   const auto above = static_cast<std::size_t>(std::upper_bound(w.at.begin(), w.at.end(), value) - w.at.begin());
   const std::size_t i = std::clamp<std::size_t>(above, 1, w.at.size() - 1);
   const double t = std::clamp((value - w.at[i - 1]) / (w.at[i] - w.at[i - 1]), 0.0, 1.0);
   double sum = 0.0;
   for (std::size_t s = 0; s < kScenes; ++s) {
-    sum += shares[s] * (w.worth[s][i - 1] + t * (w.worth[s][i] - w.worth[s][i - 1]));
+    sum += shares[s] * (w.weight[s][i - 1] + t * (w.weight[s][i] - w.weight[s][i - 1]));
   }
   return sum;
 }
@@ -44,13 +44,13 @@ constexpr double kFringe = 5.0;
 }  // namespace
 
 double log_odds(const Features& features) {
-  const auto shares = scene_shares(features);
+  const auto shares = mixture_weights(features);
   double sum = 0.0;
   for (std::size_t s = 0; s < kScenes; ++s) {
     sum += shares[s] * kBias[s];
   }
   for (std::size_t i = 0; i < kWeighed; ++i) {
-    sum += worth_of(kWorth[i], features[i], shares);
+    sum += weight_of(kWeightCurves[i], features[i], shares);
   }
   const bool fringe = feature(features, "agreement") < kLeastAgreement && feature(features, "ground") < kLeastGround;
   return fringe ? sum - kFringe : sum;
@@ -72,4 +72,4 @@ std::vector<double> probabilities(const std::vector<double>& log_odds) {
   return p;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::registration::internal

@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 /// What each number of the evidence is worth in each scene. Written by scripts/fit_confidence.py, in the order of
-/// kFeatureNames and of scene_shares().
+/// kFeatureNames and of mixture_weights().
 #pragma once
 
 #include "confidence.hpp"
 
-namespace loopmark {
+namespace loopmark::registration::internal {
 
 // clang-format off
 constexpr double kLittle = 5.5;  // structure of the scan that has fewer, logarithmic
 constexpr double kMuch = 7.5;
 constexpr double kNear = 10.0;  // metres between the sensors
 constexpr double kFar = 50.0;
-constexpr double kSparse = 1.0;  // fine patches in a coarse one, logarithmic, of the scan that has fewer
+constexpr double kSparse = 1.0;  // fine surfels in a coarse one, logarithmic, of the scan that has fewer
 constexpr double kDense = 1.25;
 constexpr double kBothSparse = 1.05;  // of the other
 constexpr double kOneDense = 1.3;
 constexpr std::array<double, kScenes> kBias = {1.002, 2.617, 6.893, -3.274, 2.215, 1.403, 1.614, 2.005};
-constexpr std::array<Worth, kWeighed> kWorth = {{
+constexpr std::array<WeightCurve, kWeighed> kWeightCurves = {{
     {{0.0002848, 0.031, 0.06775, 0.1193, 0.2053, 0.2764, 0.39, 0.6518},  // agreement
      {{{0, 0.3418, 0.5432, 0.5432, 0.5432, 0.5432, 0.5432, 0.5432},
       {0, 0.2101, 0.5019, 0.7611, 0.7611, 0.7611, 0.7611, 0.7611},
@@ -28,7 +28,7 @@ constexpr std::array<Worth, kWeighed> kWorth = {{
       {0, 0.05744, 0.1617, 0.254, 0.3264, 0.3264, 0.3264, 0.3264},
       {0, 0.5274, 0.9626, 1.133, 1.133, 1.133, 1.133, 1.133},
       {0, 0.05687, 0.1644, 0.3467, 0.6684, 0.6684, 0.6684, 0.6684}}}},
-    {{-4.725, -3.532, -3.034, -2.523, -1.733, -1.248, -0.882, -0.429},  // low_absence
+    {{-4.725, -3.532, -3.034, -2.523, -1.733, -1.248, -0.882, -0.429},  // low_missing
      {{{0, -0, -0, -0, -0.15, -0.2461, -0.2461, -0.2461},
       {0, -0, -0, -0, -0, -0, -0, -0},
       {0, -0, -0, -0, -0, -0, -0, -0},
@@ -37,7 +37,7 @@ constexpr std::array<Worth, kWeighed> kWorth = {{
       {0, -0, -0, -0, -0.05941, -0.05941, -0.05941, -0.05941},
       {0, -0, -0, -0, -0, -0, -0, -0},
       {0, -0.7949, -1.623, -2.467, -3.524, -3.738, -3.738, -3.738}}}},
-    {{-7.294, -6.166, -5.375, -4.551, -1.658, -0.8219, -0.4499, -0.1278},  // tall_clash
+    {{-7.294, -6.166, -5.375, -4.551, -1.658, -0.8219, -0.4499, -0.1278},  // tall_strong_violation
      {{{0, -0.04165, -0.08305, -0.08305, -0.1565, -0.2725, -0.3572, -0.4207},
       {0, -0, -0.4028, -0.6467, -1.271, -1.271, -1.271, -1.271},
       {0, -0, -0, -0, -0.5194, -0.5194, -0.5194, -0.5194},
@@ -46,7 +46,7 @@ constexpr std::array<Worth, kWeighed> kWorth = {{
       {0, -0, -0.2358, -0.3578, -0.3578, -0.3578, -0.3578, -0.3578},
       {0, -0.00509, -0.01622, -0.01622, -0.6292, -1.048, -1.38, -1.62},
       {0, -0, -0.4114, -0.6394, -0.8427, -0.8427, -0.8427, -0.8427}}}},
-    {{-6.341, -3.925, -2.796, -1.888, -0.9445, -0.5475, -0.335, -0.1361},  // object_clash
+    {{-6.341, -3.925, -2.796, -1.888, -0.9445, -0.5475, -0.335, -0.1361},  // object_strong_violation
      {{{0, -0, -0, -0, -0.01986, -0.01986, -0.2398, -0.5709},
       {0, -0.1647, -0.4687, -0.5087, -0.5559, -0.5735, -0.5735, -0.5735},
       {0, -0, -0.1797, -0.3226, -0.5282, -0.6438, -0.6438, -0.6731},
@@ -55,7 +55,7 @@ constexpr std::array<Worth, kWeighed> kWorth = {{
       {0, -0.144, -0.1686, -0.1716, -0.6403, -0.6912, -0.6912, -0.6912},
       {0, -0.02426, -0.2953, -0.6846, -0.9019, -0.9461, -0.9461, -0.9494},
       {0, -0.09368, -0.09368, -0.09368, -0.09572, -0.09572, -0.0968, -0.0968}}}},
-    {{-5.673, -3.831, -2.969, -2.303, -0.8473, -0.332, -0.1823, -0.07404},  // far_conflict
+    {{-5.673, -3.831, -2.969, -2.303, -0.8473, -0.332, -0.1823, -0.07404},  // far_violation
      {{{0, -0.145, -0.3388, -0.4214, -0.4214, -0.568, -0.6801, -0.7584},
       {0, -0.2002, -0.5854, -0.7769, -1.308, -1.308, -1.308, -1.308},
       {0, -0.3769, -1.012, -1.501, -1.643, -1.643, -1.643, -1.643},
@@ -148,4 +148,4 @@ constexpr std::array<Worth, kWeighed> kWorth = {{
 }};
 // clang-format on
 
-}  // namespace loopmark
+}  // namespace loopmark::registration::internal

@@ -7,79 +7,82 @@
 #include <numeric>
 #include <utility>
 
+#include "align_to_ground.hpp"
 #include "alignment.hpp"
+#include "candidate_refiner.hpp"
 #include "confidence.hpp"
-#include "examiner.hpp"
-#include "loopmark/birdseye/correlation.hpp"
+#include "loopmark/bev/correlation.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
-#include "settling.hpp"
 
-namespace loopmark {
+namespace loopmark::registration {
 namespace {
 
-constexpr std::size_t kRoughPatches = 250;
-constexpr double kResidualSigma = 0.05;  // metres; of one patch, for the covariance
-constexpr double kDependence = 40.0;     // patches that say the same thing: neighbours do, and the two ways round
+constexpr std::size_t kRoughSurfels = 250;
+constexpr double kResidualSigma = 0.05;  // metres; of one surfel, for the covariance
+constexpr double kDependence = 40.0;     // surfels that say the same thing: neighbours do, and the two ways round
 
 constexpr const char* kLandmarks = "landmarks";
 constexpr std::size_t kOwnFinalists = 3;
 constexpr std::size_t kChance = 9;  // so many peaks higher, and a peak is chance's
 
 /// Of a motion that did not come from the correlation: as one that stands out as right ones do.
-constexpr PeakHeights kNoRival = {12.0, 4.0};
+constexpr internal::PeakHeights kNoCompetitor = {12.0, 4.0};
 
 /// The guesses of landmarks and of the bird's-eye view: planar motions between the levelled frames.
-std::vector<Candidate> hypothesize(const PreparedScan::Data& source, const PreparedScan::Data& target,
-                                   const EngineOptions& options) {
-  std::vector<Candidate> candidates;
-  const auto add = [&](const birdseye::PlanarHypothesis& h, const char* origin, const PeakHeights& peak) {
-    Candidate candidate;
+std::vector<internal::Candidate> hypothesize(const PreparedScan::Data& source, const PreparedScan::Data& target,
+                                             const EngineOptions& options) {
+  std::vector<internal::Candidate> candidates;
+  const auto add = [&](const bev::PlanarHypothesis& h, const char* origin, const internal::PeakHeights& peak) {
+    internal::Candidate candidate;
     candidate.alignment.T_target_source = pose_from_yaw(h.yaw, {h.x, h.y, 0.0});
     candidate.origin = origin;
     candidate.peak = peak;
     candidates.push_back(candidate);
   };
-  std::vector<birdseye::PlanarHypothesis> of_landmarks;
-  std::vector<birdseye::PlanarHypothesis> planar;
+  std::vector<bev::PlanarHypothesis> of_landmarks;
+  std::vector<bev::PlanarHypothesis> planar;
   parallel_for(2, [&](std::size_t task) {
     if (task == 0) {
-      of_landmarks = birdseye::match_landmarks(source.landmarks, target.landmarks, options.landmarks);
+      of_landmarks = bev::match_landmarks(source.landmarks, target.landmarks, options.landmarks);
     } else {
-      planar = birdseye::correlate(source.above, target.above, options.correlation);
+      planar = bev::correlate(source.above, target.above, options.correlation);
     }
   });
-  const double usual = planar.empty() ? 0.0 : planar[std::min(kChance, planar.size() - 1)].score;
+  const double noise_floor = planar.empty() ? 0.0 : planar[std::min(kChance, planar.size() - 1)].score;
   for (const auto& h : of_landmarks) {
-    add(h, kLandmarks, {0.0, usual});
+    add(h, kLandmarks, {0.0, noise_floor});
   }
   for (const auto& h : planar) {
-    add(h, "birdseye", {h.score, usual});
+    add(h, "bev", {h.score, noise_floor});
   }
   return candidates;
 }
 
-/// Share of the structure patches near a coarse patch of the target that is no ground.
-double rough_agreement(const std::vector<Patch>& structure, const PreparedScan::Data& target, const Pose& pose) {
+/// Share of the structure surfels near a coarse surfel of the target that is no ground.
+double rough_agreement(const std::vector<surfels::Surfel>& structure, const PreparedScan::Data& target,
+                       const Pose& pose) {
   const Eigen::Isometry3f T = pose.cast<float>();
   double met = 0.0;
-  for (const Patch& patch : structure) {
-    const Patch* other = target.coarse.nearest(T * patch.mean, 0.8F);
+  for (const surfels::Surfel& surfel : structure) {
+    const surfels::Surfel* other = target.coarse.nearest(T * surfel.mean, 0.8F);
     met += other != nullptr && other->height > kStructureHeight ? 1.0 : 0.0;
   }
   return met / std::max<double>(1.0, static_cast<double>(structure.size()));
 }
 
 /// Aligns every guess roughly and keeps the best by agreement and the best by correlation, half of each.
-std::vector<Candidate> shortlist(std::vector<Candidate> candidates, const PreparedScan::Data& source,
-                                 const PreparedScan::Data& target, const EngineOptions& options) {
-  const std::vector<Patch> some = sampled(source.fine.patches(), kRoughPatches);
-  const std::vector<Patch> structure = sampled_structure(source.fine.patches(), kRoughPatches);
-  const std::vector<Patch> ground = sampled_ground(source.fine.patches(), kRoughPatches);
+std::vector<internal::Candidate> shortlist(std::vector<internal::Candidate> candidates,
+                                           const PreparedScan::Data& source, const PreparedScan::Data& target,
+                                           const EngineOptions& options) {
+  const std::vector<surfels::Surfel> some = internal::sampled(source.fine.surfels(), kRoughSurfels);
+  const std::vector<surfels::Surfel> structure = internal::sampled_structure(source.fine.surfels(), kRoughSurfels);
+  const std::vector<surfels::Surfel> ground = internal::sampled_ground(source.fine.surfels(), kRoughSurfels);
   std::vector<double> agreement(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t i) {
     Pose& T = candidates[i].alignment.T_target_source;
-    T = align_patches(some, target.coarse, settled(T, ground, target.ground), 1.2F, 1.0, 6).T_target_source;
+    T = internal::align_surfels(some, target.coarse, internal::align_to_ground(T, ground, target.ground), 1.2F, 1.0, 6)
+            .T_target_source;
     agreement[i] = rough_agreement(structure, target, T);
   });
   std::vector<std::size_t> order(candidates.size());
@@ -87,7 +90,7 @@ std::vector<Candidate> shortlist(std::vector<Candidate> candidates, const Prepar
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return agreement[a] > agreement[b]; });
   std::vector<bool> chosen(candidates.size(), false);
-  std::vector<Candidate> kept;
+  std::vector<internal::Candidate> kept;
   const auto keep = [&](std::size_t i, std::size_t limit) {
     if (i < candidates.size() && !chosen[i] && kept.size() < limit) {
       chosen[i] = true;
@@ -104,8 +107,8 @@ std::vector<Candidate> shortlist(std::vector<Candidate> candidates, const Prepar
 }
 
 /// The best of all, and the best of the landmarks' own: these have no peak that speaks for them.
-std::vector<Candidate> finalists(const std::vector<Candidate>& candidates, std::size_t most) {
-  std::vector<Candidate> kept;
+std::vector<internal::Candidate> finalists(const std::vector<internal::Candidate>& candidates, std::size_t most) {
+  std::vector<internal::Candidate> kept;
   std::size_t own = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const bool of_landmarks = candidates[i].origin == kLandmarks;
@@ -118,48 +121,49 @@ std::vector<Candidate> finalists(const std::vector<Candidate>& candidates, std::
 }
 
 /// Covariance on the target sensor's side from the information between the levelled frames.
-Matrix6d covariance_of(const Alignment& alignment, const PreparedScan::Data& target) {
+Matrix6d covariance_of(const internal::Alignment& alignment, const PreparedScan::Data& target) {
   const Matrix6d information = alignment.information / (kResidualSigma * kResidualSigma * kDependence);
   const Matrix6d damped = information + 1e-2 * Matrix6d::Identity();
   const Matrix6d to_sensor = adjoint(target.T_level_sensor.inverse());
   return to_sensor * damped.inverse() * to_sensor.transpose();
 }
 
-RegistrationMode to_mode(const Candidate& candidate, double p, const PreparedScan::Data& source,
+RegistrationMode to_mode(const internal::Candidate& candidate, double p, const PreparedScan::Data& source,
                          const PreparedScan::Data& target) {
   RegistrationMode mode;
   mode.T_target_source = target.T_level_sensor.inverse() * candidate.alignment.T_target_source * source.T_level_sensor;
   mode.p_correct = p;
   mode.origin = candidate.origin;
-  for (std::size_t i = 0; i < kFeatures; ++i) {
-    mode.evidence.emplace_back(kFeatureNames[i], candidate.features[i]);
+  for (std::size_t i = 0; i < internal::kFeatures; ++i) {
+    mode.evidence.emplace_back(internal::kFeatureNames[i], candidate.features[i]);
   }
   mode.evidence.emplace_back("log_odds", candidate.log_odds);
   return mode;
 }
 
 /// Why a result below the asked probability is withheld, from the numbers of its best mode.
-std::string reason_to_abstain(const std::vector<Candidate>& candidates, const std::vector<double>& p) {
+std::string reason_to_abstain(const std::vector<internal::Candidate>& candidates, const std::vector<double>& p) {
   if (candidates.empty()) {
     return "no structure above the ground to align";
   }
   if (candidates.size() > 1 && p[1] > 0.5 * p[0] && p[0] + p[1] > 0.5) {
     return "two places fit alike";
   }
-  const Features& f = candidates.front().features;
-  if (feature(f, "contradicted") > std::log1p(8.0) || feature(f, "tall_clash") > std::log(0.05)) {
+  const internal::Features& f = candidates.front().features;
+  if (internal::feature(f, "contradicted") > std::log1p(8.0) ||
+      internal::feature(f, "tall_strong_violation") > std::log(0.05)) {
     return "beams of one scan pass through what the other saw";
   }
-  return feature(f, "agreement") < 0.25 ? "too little structure agrees" : "the evidence is weak";
+  return internal::feature(f, "agreement") < 0.25 ? "too little structure agrees" : "the evidence is weak";
 }
 
-RegistrationResult conclude(const std::vector<Candidate>& candidates, const PreparedScan::Data& source,
+RegistrationResult conclude(const std::vector<internal::Candidate>& candidates, const PreparedScan::Data& source,
                             const PreparedScan::Data& target, const EngineOptions& options) {
   std::vector<double> scores;
-  for (const Candidate& candidate : candidates) {
+  for (const internal::Candidate& candidate : candidates) {
     scores.push_back(candidate.log_odds);
   }
-  const std::vector<double> p = probabilities(scores);
+  const std::vector<double> p = internal::probabilities(scores);
   RegistrationResult result;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     result.modes.push_back(to_mode(candidates[i], p[i], source, target));
@@ -177,21 +181,21 @@ RegistrationResult conclude(const std::vector<Candidate>& candidates, const Prep
 }
 
 /// Examines all candidates thoroughly, sharpens the best, and concludes over the distinct ones.
-RegistrationResult decide(std::vector<Candidate> candidates, const PreparedScan::Data& source,
+RegistrationResult decide(std::vector<internal::Candidate> candidates, const PreparedScan::Data& source,
                           const PreparedScan::Data& target, const EngineOptions& options,
                           std::vector<StageTime> timings) {
   Stopwatch watch;
-  const Examiner examiner(source, target, kThorough);
-  candidates = examiner.examine(std::move(candidates));
-  candidates = examiner.settled_anew(std::move(candidates));
-  candidates = examiner.nodded(std::move(candidates));
-  candidates = examiner.turned_about(std::move(candidates));
+  const internal::CandidateRefiner candidate_refiner(source, target, internal::kThorough);
+  candidates = candidate_refiner.refine(std::move(candidates));
+  candidates = candidate_refiner.refit_ground(std::move(candidates));
+  candidates = candidate_refiner.perturb_pitch(std::move(candidates));
+  candidates = candidate_refiner.align_inverse(std::move(candidates));
   timings.push_back({"refine and verify", watch.seconds()});
   watch.reset();
   if (!candidates.empty()) {
-    Candidate& best = candidates.front();
-    best.alignment = align_both_ways(source.fine, target.fine, best.alignment.T_target_source, 0.4F, 0.2, 6);
-    examiner.judge(best);
+    internal::Candidate& best = candidates.front();
+    best.alignment = internal::align_both_ways(source.fine, target.fine, best.alignment.T_target_source, 0.4F, 0.2, 6);
+    candidate_refiner.judge(best);
   }
   RegistrationResult result = conclude(candidates, source, target, options);
   timings.push_back({"polish", watch.seconds()});
@@ -204,11 +208,11 @@ RegistrationResult decide(std::vector<Candidate> candidates, const PreparedScan:
 RegistrationResult register_scans(const PreparedScan& source, const PreparedScan& target,
                                   const EngineOptions& options) {
   Stopwatch watch;
-  std::vector<Candidate> candidates = hypothesize(source.data(), target.data(), options);
+  std::vector<internal::Candidate> candidates = hypothesize(source.data(), target.data(), options);
   std::vector<StageTime> timings = {{"hypotheses", watch.seconds()}};
   watch.reset();
   candidates = shortlist(std::move(candidates), source.data(), target.data(), options);
-  candidates = Examiner(source.data(), target.data(), kQuick).examine(std::move(candidates));
+  candidates = internal::CandidateRefiner(source.data(), target.data(), internal::kQuick).refine(std::move(candidates));
   candidates = finalists(candidates, options.hypotheses);
   timings.push_back({"shortlist", watch.seconds()});
   return decide(std::move(candidates), source.data(), target.data(), options, std::move(timings));
@@ -216,12 +220,12 @@ RegistrationResult register_scans(const PreparedScan& source, const PreparedScan
 
 RegistrationResult verify_motion(const PreparedScan& source, const PreparedScan& target, const Pose& T_target_source,
                                  const EngineOptions& options) {
-  Candidate guess;
+  internal::Candidate guess;
   guess.origin = "guess";
-  guess.peak = kNoRival;
+  guess.peak = kNoCompetitor;
   guess.alignment.T_target_source =
       target.data().T_level_sensor * T_target_source * source.data().T_level_sensor.inverse();
   return decide({guess}, source.data(), target.data(), options, {});
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::registration

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "loopmark/birdseye/levelling.hpp"
+#include "loopmark/bev/ground_alignment.hpp"
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/core/error.hpp"
 #include "prepared_data.hpp"
 
-namespace loopmark {
+namespace loopmark::registration {
 namespace {
 
 constexpr float kEgo =
@@ -39,7 +39,7 @@ std::vector<Eigen::Vector3f> moved(std::vector<Eigen::Vector3f> points, const Po
 
 std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points, double voxel_m) {
   std::vector<Eigen::Vector3f> kept;
-  for (const std::size_t i : voxel_first_indices(points, voxel_m)) {
+  for (const std::size_t i : cloud::voxel_first_indices(points, voxel_m)) {
     kept.push_back(points[i]);
   }
   return kept;
@@ -48,40 +48,40 @@ std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points,
 float rounded(float value, float step) { return std::round(value / step) * step; }
 
 /// Rounds what to_bytes stores, so that a scan read back gives the same answers.
-void round_to_stored(Patch& patch) {
+void round_to_stored(surfels::Surfel& surfel) {
   for (int axis = 0; axis < 3; ++axis) {
-    patch.mean[axis] = rounded(patch.mean[axis], kMeanStep);
-    patch.normal[axis] = rounded(patch.normal[axis], kNormalStep);
+    surfel.mean[axis] = rounded(surfel.mean[axis], kMeanStep);
+    surfel.normal[axis] = rounded(surfel.normal[axis], kNormalStep);
   }
-  patch.planarity = rounded(patch.planarity, kNormalStep);
+  surfel.planarity = rounded(surfel.planarity, kNormalStep);
 }
 
 PreparedScan finish(PreparedScan::Data data, const std::vector<Eigen::Vector3f>& level_points) {
-  std::vector<Patch> patches = make_patches(level_points, kFinePatch);
-  for (Patch& patch : patches) {
-    round_to_stored(patch);
+  std::vector<surfels::Surfel> surfels = surfels::make_surfels(level_points, kFineSurfel);
+  for (surfels::Surfel& surfel : surfels) {
+    round_to_stored(surfel);
   }
-  derive(data, std::move(patches));
+  derive(data, std::move(surfels));
   return PreparedScan(std::make_shared<const PreparedScan::Data>(std::move(data)));
 }
 
 }  // namespace
 
-void derive(PreparedScan::Data& data, std::vector<Patch> patches) {
-  std::vector<Patch> distinct = PatchMap(std::move(patches), kFinePatch).patches();
+void derive(PreparedScan::Data& data, std::vector<surfels::Surfel> surfels) {
+  std::vector<surfels::Surfel> distinct = surfels::SurfelMap(std::move(surfels), kFineSurfel).surfels();
   std::vector<Eigen::Vector3f> means;
   means.reserve(distinct.size());
-  for (const Patch& patch : distinct) {
-    means.push_back(patch.mean);
+  for (const surfels::Surfel& surfel : distinct) {
+    means.push_back(surfel.mean);
   }
-  data.ground = birdseye::GroundMap(means);
-  for (Patch& patch : distinct) {
-    patch.height = data.ground.height_above(patch.mean);
+  data.ground = bev::GroundMap(means);
+  for (surfels::Surfel& surfel : distinct) {
+    surfel.height = data.ground.height_above(surfel.mean);
   }
-  data.above = {birdseye::structure_cells(means, data.ground), birdseye::relief_cells(means, data.ground)};
-  data.landmarks = birdseye::find_landmarks(data.above.structure);
-  data.fine = PatchMap(std::move(distinct), kFinePatch);
-  data.coarse = PatchMap(coarsened(data.fine, kCoarseFactor), kFinePatch * kCoarseFactor);
+  data.above = {bev::structure_cells(means, data.ground), bev::relief_cells(means, data.ground)};
+  data.landmarks = bev::find_landmarks(data.above.structure);
+  data.fine = surfels::SurfelMap(std::move(distinct), kFineSurfel);
+  data.coarse = surfels::SurfelMap(surfels::coarsened(data.fine, kCoarseFactor), kFineSurfel * kCoarseFactor);
 }
 
 PreparedScan prepare_scan(const PointCloud& cloud, const EngineOptions& options) {
@@ -100,14 +100,14 @@ PreparedScan prepare_submap(const std::vector<PointCloud>& clouds, const std::ve
     const auto in_submap = moved(seen.back(), T_submap_scan[i]);
     points.insert(points.end(), in_submap.begin(), in_submap.end());
   }
-  const birdseye::Levelling levelling = birdseye::find_levelling(thinned(points, kLevelVoxel));
+  const bev::GroundAlignment ground_alignment = bev::find_ground_alignment(thinned(points, kLevelVoxel));
   PreparedScan::Data data;
-  data.T_level_sensor = levelling.T_level_sensor;
-  data.ground_share = levelling.ground_share;
+  data.T_level_sensor = ground_alignment.T_level_sensor;
+  data.ground_share = ground_alignment.ground_share;
   for (std::size_t i = 0; i < clouds.size(); ++i) {
-    data.views.push_back({levelling.T_level_sensor * T_submap_scan[i], RangeImage(seen[i])});
+    data.views.push_back({ground_alignment.T_level_sensor * T_submap_scan[i], RangeImage(seen[i])});
   }
-  return finish(std::move(data), moved(std::move(points), levelling.T_level_sensor));
+  return finish(std::move(data), moved(std::move(points), ground_alignment.T_level_sensor));
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::registration

@@ -6,10 +6,10 @@
 #include <type_traits>
 
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 #include "prepared_data.hpp"
 
-namespace loopmark {
+namespace loopmark::registration {
 namespace {
 
 constexpr char kMagic[4] = {'L', 'M', 'P', 'S'};
@@ -75,26 +75,26 @@ Integer steps(float value, float step) {
   return static_cast<Integer>(std::lround(value / step));
 }
 
-void put_patch(std::string& bytes, const Patch& patch) {
+void put_surfel(std::string& bytes, const surfels::Surfel& surfel) {
   for (int axis = 0; axis < 3; ++axis) {
-    put(bytes, steps<std::int16_t>(patch.mean[axis], kMeanStep));
+    put(bytes, steps<std::int16_t>(surfel.mean[axis], kMeanStep));
   }
   for (int axis = 0; axis < 3; ++axis) {
-    put(bytes, steps<std::int8_t>(patch.normal[axis], kNormalStep));
+    put(bytes, steps<std::int8_t>(surfel.normal[axis], kNormalStep));
   }
-  put(bytes, steps<std::int8_t>(patch.planarity, kNormalStep));
+  put(bytes, steps<std::int8_t>(surfel.planarity, kNormalStep));
 }
 
-Patch take_patch(Reader& reader) {
-  Patch patch;
+surfels::Surfel take_surfel(Reader& reader) {
+  surfels::Surfel surfel;
   for (int axis = 0; axis < 3; ++axis) {
-    patch.mean[axis] = static_cast<float>(reader.take<std::int16_t>()) * kMeanStep;
+    surfel.mean[axis] = static_cast<float>(reader.take<std::int16_t>()) * kMeanStep;
   }
   for (int axis = 0; axis < 3; ++axis) {
-    patch.normal[axis] = static_cast<float>(reader.take<std::int8_t>()) * kNormalStep;
+    surfel.normal[axis] = static_cast<float>(reader.take<std::int8_t>()) * kNormalStep;
   }
-  patch.planarity = static_cast<float>(reader.take<std::int8_t>()) * kNormalStep;
-  return patch;
+  surfel.planarity = static_cast<float>(reader.take<std::int8_t>()) * kNormalStep;
+  return surfel;
 }
 
 /// Runs of empty cells are stored as their length.
@@ -141,9 +141,9 @@ std::string PreparedScan::to_bytes() const {
   std::string body;
   put_pose(body, data_->T_level_sensor);
   put(body, data_->ground_share);
-  put(body, static_cast<std::uint32_t>(data_->fine.patches().size()));
-  for (const Patch& patch : data_->fine.patches()) {
-    put_patch(body, patch);
+  put(body, static_cast<std::uint32_t>(data_->fine.surfels().size()));
+  for (const surfels::Surfel& surfel : data_->fine.surfels()) {
+    put_surfel(body, surfel);
   }
   put(body, static_cast<std::uint32_t>(data_->views.size()));
   for (const View& view : data_->views) {
@@ -152,7 +152,7 @@ std::string PreparedScan::to_bytes() const {
   }
   std::string bytes(kMagic, sizeof kMagic);
   put(bytes, kVersion);
-  put(bytes, crc32(body));
+  put(bytes, storage::crc32(body));
   return bytes + body;
 }
 
@@ -164,23 +164,23 @@ PreparedScan PreparedScan::from_bytes(const std::string& bytes) {
   if (reader.take<std::uint32_t>() != kVersion) {
     damaged("another version wrote it");
   }
-  if (reader.take<std::uint32_t>() != crc32(std::string_view(bytes).substr(kHeader))) {
+  if (reader.take<std::uint32_t>() != storage::crc32(std::string_view(bytes).substr(kHeader))) {
     damaged("the checksum is wrong");
   }
   Data data;
   data.T_level_sensor = take_pose(reader);
   data.ground_share = reader.take<double>();
-  std::vector<Patch> patches(reader.count(10));
-  for (Patch& patch : patches) {
-    patch = take_patch(reader);
+  std::vector<surfels::Surfel> surfels(reader.count(10));
+  for (surfels::Surfel& surfel : surfels) {
+    surfel = take_surfel(reader);
   }
   data.views.resize(reader.count(96));
   for (View& view : data.views) {
     view.T_level_sensor = take_pose(reader);
     view.image = take_image(reader);
   }
-  derive(data, std::move(patches));
+  derive(data, std::move(surfels));
   return PreparedScan(std::make_shared<const Data>(std::move(data)));
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::registration

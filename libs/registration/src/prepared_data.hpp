@@ -3,14 +3,14 @@
 /// What a PreparedScan holds.
 #pragma once
 
-#include "loopmark/birdseye/ground_map.hpp"
-#include "loopmark/birdseye/landmarks.hpp"
-#include "loopmark/birdseye/structure.hpp"
+#include "loopmark/bev/ground_map.hpp"
+#include "loopmark/bev/landmarks.hpp"
+#include "loopmark/bev/structure.hpp"
 #include "loopmark/registration/engine.hpp"
-#include "loopmark/registration/patch_map.hpp"
 #include "loopmark/registration/range_image.hpp"
+#include "loopmark/surfels/surfel_map.hpp"
 
-namespace loopmark {
+namespace loopmark::registration {
 
 /// One viewpoint: where its sensor stood and what its beams saw.
 struct View {
@@ -21,22 +21,22 @@ struct View {
 struct PreparedScan::Data {
   Pose T_level_sensor = Pose::Identity();  ///< of the scan, or of the submap's frame
   double ground_share = 0.0;               ///< share of the near points on the ground plane; 0: none found
-  PatchMap fine;                           ///< 0.4 m
-  PatchMap coarse;                         ///< 1.2 m
-  birdseye::BirdseyeView above;            ///< for the bird's-eye-view correlation
-  std::vector<birdseye::Landmark> landmarks;
-  birdseye::GroundMap ground;
+  surfels::SurfelMap fine;                 ///< 0.4 m
+  surfels::SurfelMap coarse;               ///< 1.2 m
+  bev::BirdseyeView above;                 ///< for the bird's-eye-view correlation
+  std::vector<bev::Landmark> landmarks;
+  bev::GroundMap ground;
   std::vector<View> views;
 };
 
-constexpr float kFinePatch = 0.4F;
+constexpr float kFineSurfel = 0.4F;
 constexpr int kCoarseFactor = 3;
 constexpr float kMeanStep = 0.005F;           ///< metres: means are kept in these steps, so that stored scans are exact
 constexpr float kNormalStep = 1.0F / 127.0F;  ///< of normals and planarity
-constexpr float kStructureHeight = 0.5F;      ///< patches higher above the ground than this are structure, metres
-constexpr float kGroundHeight = 0.3F;         ///< patches lower than this are ground, metres
+constexpr float kStructureHeight = 0.5F;      ///< surfels higher above the ground than this are structure, metres
+constexpr float kGroundHeight = 0.3F;         ///< surfels lower than this are ground, metres
 
-/// Fills what follows from the patches: the maps, the ground, what is seen from above.
-void derive(PreparedScan::Data& data, std::vector<Patch> patches);
+/// Fills what follows from the surfels: the maps, the ground, what is seen from above.
+void derive(PreparedScan::Data& data, std::vector<surfels::Surfel> surfels);
 
-}  // namespace loopmark
+}  // namespace loopmark::registration

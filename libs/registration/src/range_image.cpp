@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopmark {
+namespace loopmark::registration {
 namespace {
 
 constexpr float kDegrees = 180.0F / std::numbers::pi_v<float>;
@@ -61,9 +61,9 @@ RangeImage::Sight RangeImage::look_at(const Eigen::Vector3f& point, float margin
   const Cell& cell = cells_[static_cast<std::size_t>(bin)];
   const float range = point.norm();
   if (range < static_cast<float>(cell.nearest) * kUnit - margin_m) {
-    return passes_around(bin, range + margin_m) ? Sight::kClash : Sight::kConflict;
+    return passes_around(bin, range + margin_m) ? Sight::kStrongViolation : Sight::kFreeSpaceViolation;
   }
   return range > static_cast<float>(cell.farthest) * kUnit + margin_m ? Sight::kHidden : Sight::kAgrees;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::registration

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "font.hpp"
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 namespace {
 
 constexpr char kFirst = ' ';
@@ -113,4 +113,4 @@ const Glyph& glyph_of(char letter) {
   return kGlyphs[static_cast<std::size_t>(shown - kFirst)];
 }
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 
 inline constexpr std::size_t kGlyphWidth = 5;
 inline constexpr std::size_t kGlyphHeight = 7;
@@ -17,4 +17,4 @@ using Glyph = std::array<std::uint8_t, kGlyphWidth>;
 /// The shape of an ASCII letter; of '?' for anything else.
 const Glyph& glyph_of(char letter);
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

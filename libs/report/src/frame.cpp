@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 namespace {
 
 constexpr double kPad = 0.04;  ///< of the range, left free around the data
@@ -198,4 +198,4 @@ Frame lay_out(const Plot::Content& content) {
   return frame;
 }
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

@@ -9,7 +9,7 @@
 #include "loopmark/report/plot.hpp"
 #include "loopmark/report/ticks.hpp"
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 
 /// One axis: values in [low, high] lie between two pixels.
 struct Scale {
@@ -50,4 +50,4 @@ std::vector<LegendEntry> lay_out_legend(const Plot::Content& content, double lef
 
 Frame lay_out(const Plot::Content& content);
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

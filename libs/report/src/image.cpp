@@ -21,16 +21,16 @@ void paste(Image& image, const Image& part, std::size_t column, std::size_t row)
 void draw_text(Image& image, const std::string& text, std::size_t column, std::size_t row, Colour colour,
                std::size_t scale) {
   for (const char letter : text) {
-    const Glyph& glyph = glyph_of(letter);
-    for (std::size_t y = 0; y < kGlyphHeight * scale; ++y) {
-      for (std::size_t x = 0; x < kGlyphWidth * scale; ++x) {
+    const internal::Glyph& glyph = internal::glyph_of(letter);
+    for (std::size_t y = 0; y < internal::kGlyphHeight * scale; ++y) {
+      for (std::size_t x = 0; x < internal::kGlyphWidth * scale; ++x) {
         const bool set = (glyph[x / scale] >> (y / scale) & 1U) != 0;
         if (set && column + x < image.width && row + y < image.height) {
           image.at(column + x, row + y) = colour;
         }
       }
     }
-    column += (kGlyphWidth + 1) * scale;
+    column += (internal::kGlyphWidth + 1) * scale;
   }
 }
 

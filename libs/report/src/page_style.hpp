@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 
 inline constexpr char kPageStyle[] = R"css(
 body { margin: 0 auto; max-width: 1320px; padding: 0 24px 48px; color: #222; background: #fff;
@@ -57,4 +57,4 @@ document.querySelectorAll('table.sortable').forEach(function (table) {
 });
 )js";
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

@@ -11,36 +11,38 @@ namespace {
 
 using Item = Plot::Item;
 
-std::vector<double> pixels(const Scale& scale, const std::vector<double>& values) {
+std::vector<double> pixels(const internal::Scale& scale, const std::vector<double>& values) {
   std::vector<double> result(values.size());
   std::transform(values.begin(), values.end(), result.begin(), scale);
   return result;
 }
 
 /// The pixel of zero, or of the end of the axis that is nearest to it.
-double base_line(const Frame& frame) {
+double base_line(const internal::Frame& frame) {
   const double zero = frame.y.logarithmic ? frame.y.low : std::clamp(0.0, frame.y.low, frame.y.high);
   return frame.y(zero);
 }
 
-void draw_bar(SvgWriter& svg, const Frame& frame, const Item& item, double left, double right, double height) {
+void draw_bar(internal::SvgWriter& svg, const internal::Frame& frame, const Item& item, double left, double right,
+              double height) {
   const double y = frame.y(height);
   if (std::isfinite(y)) {
     const double base = base_line(frame);
     svg.rectangle(left, std::min(y, base), right - left, std::abs(base - y),
-                  fill_of(item, 0.75) + " stroke=\"" + hex(item.colour) + "\" stroke-width=\"0.6\"");
+                  internal::density_ratio_of(item, 0.75) + " stroke=\"" + hex(item.colour) + "\" stroke-width=\"0.6\"");
   }
 }
 
-void draw_points(SvgWriter& svg, const Frame& frame, const Item& item) {
-  svg.raw("<g " + fill_of(item, 1.0) + ">");
+void draw_points(internal::SvgWriter& svg, const internal::Frame& frame, const Item& item) {
+  svg.raw("<g " + internal::density_ratio_of(item, 1.0) + ">");
   for (std::size_t i = 0; i < item.x.size(); ++i) {
     svg.circle(frame.x(item.x[i]), frame.y(item.y[i]), item.style.radius, "");
   }
   svg.raw("</g>");
 }
 
-void draw_coloured(SvgWriter& svg, const Frame& frame, const Item& item, const Plot::ColourBar& bar) {
+void draw_coloured(internal::SvgWriter& svg, const internal::Frame& frame, const Item& item,
+                   const Plot::ColourBar& bar) {
   for (std::size_t i = 0; i < item.x.size(); ++i) {
     if (std::isfinite(item.value[i])) {
       const Colour colour = heat_colour((item.value[i] - bar.low) / (bar.high - bar.low));
@@ -50,12 +52,12 @@ void draw_coloured(SvgWriter& svg, const Frame& frame, const Item& item, const P
 }
 
 /// A filled band for each run of finite values.
-void draw_band(SvgWriter& svg, const Frame& frame, const Item& item) {
+void draw_band(internal::SvgWriter& svg, const internal::Frame& frame, const Item& item) {
   std::vector<double> x, y, back_x, back_y;
   const auto flush = [&] {
     x.insert(x.end(), back_x.rbegin(), back_x.rend());
     y.insert(y.end(), back_y.rbegin(), back_y.rend());
-    svg.path(x, y, true, fill_of(item, 0.25) + " stroke=\"none\"");
+    svg.path(x, y, true, internal::density_ratio_of(item, 0.25) + " stroke=\"none\"");
     x.clear(), y.clear(), back_x.clear(), back_y.clear();
   };
   for (std::size_t i = 0; i < item.x.size(); ++i) {
@@ -71,51 +73,52 @@ void draw_band(SvgWriter& svg, const Frame& frame, const Item& item) {
   flush();
 }
 
-void draw_intervals(SvgWriter& svg, const Frame& frame, const Item& item) {
+void draw_intervals(internal::SvgWriter& svg, const internal::Frame& frame, const Item& item) {
   constexpr double kCap = 3.5;
   for (std::size_t i = 0; i < item.x.size(); ++i) {
     const double x = frame.x(item.x[i]);
     const double low = frame.y(item.y[i]);
     const double high = frame.y(item.high[i]);
     if (std::isfinite(x) && std::isfinite(low) && std::isfinite(high)) {
-      svg.line(x, low, x, high, stroke_of(item));
-      svg.line(x - kCap, low, x + kCap, low, stroke_of(item));
-      svg.line(x - kCap, high, x + kCap, high, stroke_of(item));
+      svg.line(x, low, x, high, internal::stroke_of(item));
+      svg.line(x - kCap, low, x + kCap, low, internal::stroke_of(item));
+      svg.line(x - kCap, high, x + kCap, high, internal::stroke_of(item));
     }
   }
 }
 
-void draw_segments(SvgWriter& svg, const Frame& frame, const Item& item) {
+void draw_segments(internal::SvgWriter& svg, const internal::Frame& frame, const Item& item) {
   std::string d;
   for (std::size_t i = 0; i + 1 < item.x.size(); i += 2) {
     const std::vector<double> at = {frame.x(item.x[i]), frame.y(item.y[i]), frame.x(item.x[i + 1]),
                                     frame.y(item.y[i + 1])};
     if (std::all_of(at.begin(), at.end(), [](double v) { return std::isfinite(v); })) {
-      d += "M" + coordinate(at[0]) + " " + coordinate(at[1]) + "L" + coordinate(at[2]) + " " + coordinate(at[3]);
+      d += "M" + internal::coordinate(at[0]) + " " + internal::coordinate(at[1]) + "L" + internal::coordinate(at[2]) +
+           " " + internal::coordinate(at[3]);
     }
   }
   if (!d.empty()) {
-    svg.raw("<path d=\"" + d + "\" " + stroke_of(item) + "/>");
+    svg.raw("<path d=\"" + d + "\" " + internal::stroke_of(item) + "/>");
   }
 }
 
-void draw_image(SvgWriter& svg, const Frame& frame, const Item& item) {
+void draw_image(internal::SvgWriter& svg, const internal::Frame& frame, const Item& item) {
   const double left = frame.x(item.window.left);
   const double top = frame.y(item.window.top);
-  svg.raw("<image x=\"" + coordinate(left) + "\" y=\"" + coordinate(top) + "\" width=\"" +
-          coordinate(frame.x(item.window.right) - left) + "\" height=\"" +
-          coordinate(frame.y(item.window.bottom) - top) +
+  svg.raw("<image x=\"" + internal::coordinate(left) + "\" y=\"" + internal::coordinate(top) + "\" width=\"" +
+          internal::coordinate(frame.x(item.window.right) - left) + "\" height=\"" +
+          internal::coordinate(frame.y(item.window.bottom) - top) +
           "\" preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"" +
-          png_data_uri(png_bytes(item.picture)) + "\"/>");
+          internal::png_data_uri(png_bytes(item.picture)) + "\"/>");
 }
 
 }  // namespace
 
-void draw_item(SvgWriter& svg, const Frame& frame, const Plot::Content& content, const Item& item, std::size_t bar_slot,
-               std::size_t bar_slots) {
+void internal::draw_item(internal::SvgWriter& svg, const internal::Frame& frame, const Plot::Content& content,
+                         const Item& item, std::size_t bar_slot, std::size_t bar_slots) {
   switch (item.kind) {
     case Plot::Kind::kLine:
-      svg.path(pixels(frame.x, item.x), pixels(frame.y, item.y), false, stroke_of(item));
+      svg.path(pixels(frame.x, item.x), pixels(frame.y, item.y), false, internal::stroke_of(item));
       break;
     case Plot::Kind::kPoints:
       draw_points(svg, frame, item);
@@ -143,8 +146,8 @@ void draw_item(SvgWriter& svg, const Frame& frame, const Plot::Content& content,
       break;
     case Plot::Kind::kPolygon:
       svg.path(pixels(frame.x, item.x), pixels(frame.y, item.y), true,
-               fill_of(item, 0.2) + " stroke=\"" + hex(item.colour) + "\" stroke-width=\"" +
-                   coordinate(item.style.width) + "\"");
+               internal::density_ratio_of(item, 0.2) + " stroke=\"" + hex(item.colour) + "\" stroke-width=\"" +
+                   internal::coordinate(item.style.width) + "\"");
       break;
     case Plot::Kind::kSegments:
       draw_segments(svg, frame, item);
@@ -153,7 +156,7 @@ void draw_item(SvgWriter& svg, const Frame& frame, const Plot::Content& content,
       draw_image(svg, frame, item);
       break;
     case Plot::Kind::kText:
-      svg.words(item.label, frame.x(item.x[0]), frame.y(item.y[0]), kTickSize, Anchor::kMiddle);
+      svg.words(item.label, frame.x(item.x[0]), frame.y(item.y[0]), internal::kTickSize, internal::Anchor::kMiddle);
       break;
   }
 }

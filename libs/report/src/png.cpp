@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/report/picture.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::report {
 namespace {
@@ -48,6 +48,8 @@ std::string png_bytes(const Image& image) {
   return bytes;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) { write_file_atomically(path, png_bytes(image)); }
+void write_png(const std::filesystem::path& path, const Image& image) {
+  storage::write_file_atomically(path, png_bytes(image));
+}
 
 }  // namespace loopmark::report

@@ -6,7 +6,7 @@
 
 #include "text.hpp"
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 namespace {
 
 std::string attribute(const char* name, double value) {
@@ -77,8 +77,8 @@ std::string stroke_of(const Plot::Item& item) {
          (item.style.opacity < 1.0 ? " stroke-opacity=\"" + coordinate(item.style.opacity) + "\"" : "");
 }
 
-std::string fill_of(const Plot::Item& item, double opacity) {
+std::string density_ratio_of(const Plot::Item& item, double opacity) {
   return "fill=\"" + hex(item.colour) + "\" fill-opacity=\"" + coordinate(item.style.opacity * opacity) + "\"";
 }
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

@@ -8,7 +8,7 @@
 #include "frame.hpp"
 #include "loopmark/report/plot.hpp"
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 
 /// Where a text stands relative to its anchor.
 enum class Anchor { kStart, kMiddle, kEnd };
@@ -35,10 +35,10 @@ class SvgWriter {
 
 /// stroke of a series as attributes; fill of a series with its opacity times `opacity`.
 std::string stroke_of(const Plot::Item& item);
-std::string fill_of(const Plot::Item& item, double opacity);
+std::string density_ratio_of(const Plot::Item& item, double opacity);
 
 /// Draws one series inside the frame; `bar_slot` of `bar_slots` is its place among the category bars.
 void draw_item(SvgWriter& svg, const Frame& frame, const Plot::Content& content, const Plot::Item& item,
                std::size_t bar_slot, std::size_t bar_slots);
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

@@ -49,11 +49,12 @@ std::string padded(const std::string& text, std::size_t width, bool right) {
 }  // namespace
 
 Cell number_cell(double value, int decimals) {
-  return std::isfinite(value) ? Cell(fixed(value, decimals), value) : Cell("\u2013", -HUGE_VAL);
+  return std::isfinite(value) ? Cell(internal::fixed(value, decimals), value) : Cell("\u2013", -HUGE_VAL);
 }
 
 Cell percent_cell(double share, int decimals) {
-  return std::isfinite(share) ? Cell(fixed(100.0 * share, decimals) + " %", share) : number_cell(share, decimals);
+  return std::isfinite(share) ? Cell(internal::fixed(100.0 * share, decimals) + " %", share)
+                              : number_cell(share, decimals);
 }
 
 Cell count_cell(std::size_t count) { return {std::to_string(count), static_cast<double>(count)}; }
@@ -118,11 +119,12 @@ std::string Table::latex() const {
 std::string Table::html() const {
   std::string text = "<table class=\"sortable\">\n";
   if (!caption_.empty()) {
-    text += "<caption>" + escape_markup(caption_) + "</caption>\n";
+    text += "<caption>" + internal::escape_markup(caption_) + "</caption>\n";
   }
   text += "<thead><tr>";
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    text += std::string(is_numeric(i) ? "<th class=\"number\">" : "<th>") + escape_markup(columns_[i]) + "</th>";
+    text +=
+        std::string(is_numeric(i) ? "<th class=\"number\">" : "<th>") + internal::escape_markup(columns_[i]) + "</th>";
   }
   text += "</tr></thead>\n<tbody>\n";
   for (const auto& row : rows_) {
@@ -130,8 +132,10 @@ std::string Table::html() const {
     for (std::size_t i = 0; i < row.size(); ++i) {
       const Cell& cell = row[i];
       text += is_numeric(i) ? "<td class=\"number\"" : "<td";
-      text += cell.number && std::isfinite(*cell.number) ? " data-sort=\"" + fixed(*cell.number, 9) + "\">" : ">";
-      text += (cell.bold ? "<b>" + escape_markup(cell.text) + "</b>" : escape_markup(cell.text)) + "</td>";
+      text +=
+          cell.number && std::isfinite(*cell.number) ? " data-sort=\"" + internal::fixed(*cell.number, 9) + "\">" : ">";
+      text += (cell.bold ? "<b>" + internal::escape_markup(cell.text) + "</b>" : internal::escape_markup(cell.text)) +
+              "</td>";
     }
     text += "</tr>\n";
   }

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 
 std::string escape_markup(const std::string& text) {
   std::string escaped;
@@ -66,4 +66,4 @@ std::string coordinate(double value) {
   return number;
 }
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

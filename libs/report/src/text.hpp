@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace loopmark::report {
+namespace loopmark::report::internal {
 
 /// &, <, >, " as entities.
 std::string escape_markup(const std::string& text);
@@ -21,4 +21,4 @@ std::string fixed(double value, int decimals);
 /// A coordinate in a drawing: at most two decimals, no trailing zeros.
 std::string coordinate(double value);
 
-}  // namespace loopmark::report
+}  // namespace loopmark::report::internal

@@ -33,7 +33,7 @@ std::string number_label(double value, double step) {
     std::snprintf(text.data(), text.size(), "%g", value);
     return text.data();
   }
-  return fixed(value, std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))));
+  return internal::fixed(value, std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))));
 }
 
 }  // namespace

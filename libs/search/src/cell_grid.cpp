@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace loopmark {
+namespace loopmark::search {
 namespace {
 
 std::uint64_t key_of(std::int32_t cx, std::int32_t cy, std::int32_t cz, std::int32_t limit) {
@@ -131,4 +131,4 @@ std::optional<CellGrid::Nearest> CellGrid::nearest(const Eigen::Vector3f& query,
   return found ? std::optional<Nearest>(best) : std::nullopt;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::search

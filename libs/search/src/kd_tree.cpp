@@ -6,7 +6,7 @@
 #include <nanoflann.hpp>
 #include <utility>
 
-namespace loopmark {
+namespace loopmark::search {
 namespace {
 
 /// nanoflann's view of a vector of points.
@@ -96,4 +96,4 @@ std::vector<Neighbour> KdTree::within(const Eigen::Vector3f& query, float radius
   return found;
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::search

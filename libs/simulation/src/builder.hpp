@@ -6,7 +6,7 @@
 #include "loopmark/core/random.hpp"
 #include "loopmark/simulation/town.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 
 /// A town while it is being built.
 struct Builder {
@@ -40,8 +40,8 @@ void add_open_ground(Builder& b, std::uint64_t seed);
 /// Lamps, signs, street trees, bins, guard rails, parking strips of one street.
 void furnish_street(Builder& b, const RoadEdge& edge, std::uint64_t seed);
 /// Buildings and gardens on both sides of one street.
-void build_lots(Builder& b, const RoadEdge& edge, std::uint64_t seed);
+void build_parcels(Builder& b, const RoadEdge& edge, std::uint64_t seed);
 /// Trees, bushes and sheds where nothing else stands.
 void fill_free_ground(Builder& b, std::uint64_t seed);
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

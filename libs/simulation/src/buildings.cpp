@@ -8,7 +8,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 namespace {
 
 Surface shaded(Material material, Rng& rng) { return {material, static_cast<std::uint8_t>(64 + rng.below(128))}; }
@@ -196,4 +196,4 @@ Mesh make_building(const BuildingSpec& spec) {
   return mesh;
 }
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

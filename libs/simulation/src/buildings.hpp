@@ -6,7 +6,7 @@
 
 #include "loopmark/simulation/mesh.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 
 enum class Roof : std::uint8_t { kFlat, kGable };
 
@@ -40,4 +40,4 @@ struct BuildingSpec {
 /// Walls with windows, doors, balconies and ledges, and a roof with what stands on it.
 Mesh make_building(const BuildingSpec& spec);
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

@@ -97,16 +97,16 @@ struct Drive::Impl {
   DriveOptions options;
   SensorModel sensor;
   LanePath path;
-  SpeedProfile profile;
+  internal::SpeedProfile profile;
   Traffic traffic;
   std::vector<Revisit> revisits;
   std::array<Ripple, 3> ripples;
   double first_stamp;
   std::size_t count;
 
-  static SpeedProfile::Limits limits(const DriveOptions& o) {
+  static internal::SpeedProfile::Limits limits(const DriveOptions& o) {
     Rng rng(task_seed(o.seed, {50}));
-    SpeedProfile::Limits limits;
+    internal::SpeedProfile::Limits limits;
     limits.speed_factor = rng.uniform(0.85, 1.05);
     limits.halt_every_m = o.halt_every_m;
     limits.from_standstill = o.from_standstill;

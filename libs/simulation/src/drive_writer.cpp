@@ -8,14 +8,14 @@
 #include <memory>
 #include <vector>
 
-#include "loopmark/core/files.hpp"
 #include "loopmark/core/interrupt.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/mrpt_bridge/rawlog.hpp"
-#include "loopmark/simulation/output_folder.hpp"
+#include "loopmark/storage/output_folder.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::simulation {
 namespace {
@@ -88,14 +88,14 @@ void write_texts(const Town& town, const Drive& drive, const std::filesystem::pa
     times += format("%.6f\n", drive.stamp_s(i));
     poses.push_back(T_first_town * drive.pose(drive.stamp_s(i)));
   }
-  write_file_atomically(folder / "times.txt", times);
-  write_kitti(folder / "poses.txt", poses);
+  storage::write_file_atomically(folder / "times.txt", times);
+  io::write_kitti(folder / "poses.txt", poses);
   const std::string camera = "1 0 0 0 0 1 0 0 0 0 1 0\n";
-  write_file_atomically(folder / "calib.txt",
-                        "P0: " + camera + "P1: " + camera + "P2: " + camera + "P3: " + camera + "Tr: " + camera);
-  write_file_atomically(folder / "sweep.txt", sweep_text(drive, options.compensated));
-  write_file_atomically(folder / "revisits.csv", revisits_csv(drive));
-  write_file_atomically(folder / "town.json", town_json(town, drive, options, log));
+  storage::write_file_atomically(
+      folder / "calib.txt", "P0: " + camera + "P1: " + camera + "P2: " + camera + "P3: " + camera + "Tr: " + camera);
+  storage::write_file_atomically(folder / "sweep.txt", sweep_text(drive, options.compensated));
+  storage::write_file_atomically(folder / "revisits.csv", revisits_csv(drive));
+  storage::write_file_atomically(folder / "town.json", town_json(town, drive, options, log));
 }
 
 /// Takes the scans of a drive in order and stores them in the format asked for.
@@ -107,7 +107,7 @@ class ScanStore {
         T_first_town_(drive.pose(drive.stamp_s(0)).inverse()),
         drive_(drive) {
     if (format_ == LogFormat::kRawlog) {
-      rawlog_ = std::make_unique<RawlogWriter>(folder / "drive.rawlog", drive.sensor().label);
+      rawlog_ = std::make_unique<mrpt_bridge::RawlogWriter>(folder / "drive.rawlog", drive.sensor().label);
     } else {
       std::filesystem::create_directory(folder_);
     }
@@ -116,9 +116,9 @@ class ScanStore {
   /// Files of their own are written at once, on any thread.
   void store(const Scan& scan) const {
     if (format_ == LogFormat::kPcd) {
-      write_pcd(folder_ / format("%06zu.pcd", scan.index), scan.cloud);
+      io::write_pcd(folder_ / format("%06zu.pcd", scan.index), scan.cloud);
     } else if (format_ == LogFormat::kKitti) {
-      write_bin(folder_ / format("%06zu.bin", scan.index), scan.cloud);
+      io::write_bin(folder_ / format("%06zu.bin", scan.index), scan.cloud);
     }
   }
 
@@ -136,7 +136,7 @@ class ScanStore {
   LogFormat format_;
   Pose T_first_town_;
   const Drive& drive_;
-  std::unique_ptr<RawlogWriter> rawlog_;
+  std::unique_ptr<mrpt_bridge::RawlogWriter> rawlog_;
 };
 
 Scan make_scan(const World& world, const Drive& drive, std::size_t index, bool compensated) {
@@ -174,7 +174,7 @@ std::size_t write_scans(const World& world, const Drive& drive, const WriteOptio
 
 WrittenLog write_drive(const World& world, const Town& town, const Drive& drive, const std::filesystem::path& folder,
                        const WriteOptions& options) {
-  OutputFolder output(folder);
+  storage::OutputFolder output(folder);
   ScanStore store(output.partial(), drive, options);
   WrittenLog log{drive.size(), 0, drive.distance(drive.stamp_s(drive.size() - 1)) - drive.distance(drive.stamp_s(0))};
   log.points = write_scans(world, drive, options, store);

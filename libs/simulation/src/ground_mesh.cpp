@@ -7,7 +7,7 @@
 
 #include "builder.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 namespace {
 
 constexpr Surface kAsphalt = {Material::kAsphalt, 128};
@@ -186,4 +186,4 @@ void add_open_ground(Builder& b, std::uint64_t seed) {
   }
 }
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

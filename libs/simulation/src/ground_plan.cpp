@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 namespace {
 
 constexpr double kCell = 0.5;
@@ -95,4 +95,4 @@ bool GroundPlan::is_free(const Eigen::Vector2d& centre, double radius) const {
   return all_in_disc(centre, radius, [&](const Eigen::Vector2d& p) { return at(p) == GroundUse::kFree; });
 }
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 
 enum class GroundUse : std::uint8_t { kFree, kCarriageway, kSidewalk, kWater, kTaken };
 
@@ -46,4 +46,4 @@ class GroundPlan {
   std::vector<GroundUse> cells_;
 };
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

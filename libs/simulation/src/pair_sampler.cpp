@@ -40,7 +40,7 @@ struct Candidate {
   PointCloud source_cloud;
   PointCloud target_cloud;
   Pose T_target_source = Pose::Identity();
-  Overlap shared;
+  cloud::Overlap shared;
 };
 
 class Sampler {
@@ -83,7 +83,7 @@ class Sampler {
   }
 
  private:
-  View view(const StreetPlace& place, std::size_t day, bool second, Rng& rng) const {
+  View view(const internal::StreetPlace& place, std::size_t day, bool second, Rng& rng) const {
     const double yaw = place.heading_rad + rng.uniform(-0.05, 0.05);
     const double mount = o_.any_yaw ? rng.uniform(-std::numbers::pi, std::numbers::pi) : 0.0;
     const Eigen::Vector2d beside(rng.uniform(-0.4, 0.4), rng.uniform(-0.4, 0.4));
@@ -140,18 +140,18 @@ class Sampler {
 
   std::optional<Candidate> candidate(std::uint64_t number) const {
     Rng rng(task_seed(o_.seed, {71, number}));
-    const StreetPlace place = places_.any(rng);
+    const internal::StreetPlace place = places_.any(rng);
     Candidate c;
     c.source = view(place, rng.below(static_cast<std::uint32_t>(worlds_.size())), false, rng);
-    const OverlapCloud coarse(render(c.source, kTrialCoarseness).points);
+    const cloud::OverlapCloud coarse(render(c.source, kTrialCoarseness).points);
     std::vector<View> fitting;
     for (std::size_t trial = 0; trial < kTrials; ++trial) {
       const auto [low, high] = distance_range(trial, rng);
-      const StreetPlace other = places_.at_distance(place.position, low, high, rng);
+      const internal::StreetPlace other = places_.at_distance(place.position, low, high, rng);
       const View target = view(other, rng.below(static_cast<std::uint32_t>(worlds_.size())), true, rng);
-      const OverlapCloud seen(render(target, kTrialCoarseness).points);
+      const cloud::OverlapCloud seen(render(target, kTrialCoarseness).points);
       const Pose motion = target.T_town_lidar.inverse() * c.source.T_town_lidar;
-      if (lacks(bin_of(overlap(coarse, seen, motion).symmetric))) {
+      if (lacks(bin_of(cloud::overlap(coarse, seen, motion).symmetric))) {
         fitting.push_back(target);
       }
     }
@@ -165,7 +165,7 @@ class Sampler {
     }
     c.source_cloud = render(c.source, 1.0);
     c.target_cloud = render(c.target, 1.0);
-    c.shared = overlap(c.source_cloud, c.target_cloud, c.T_target_source);
+    c.shared = cloud::overlap(c.source_cloud, c.target_cloud, c.T_target_source);
     return c;
   }
 
@@ -203,7 +203,7 @@ class Sampler {
     const View b = view(there, rng.below(static_cast<std::uint32_t>(worlds_.size())), true, rng);
     const PointCloud cloud_a = render(a, 1.0);
     const PointCloud cloud_b = render(b, 1.0);
-    if (overlap(cloud_a, cloud_b, b.T_town_lidar.inverse() * a.T_town_lidar).source > kNoOverlap) {
+    if (cloud::overlap(cloud_a, cloud_b, b.T_town_lidar.inverse() * a.T_town_lidar).source > kNoOverlap) {
       return false;
     }
     const std::size_t first = add_scan(a, cloud_a);
@@ -215,7 +215,7 @@ class Sampler {
   const Town& town_;
   PairOptions o_;
   const ScanSink& sink_;
-  StreetPlaces places_;
+  internal::StreetPlaces places_;
   std::array<SensorModel, 2> sensors_;
   std::vector<World> worlds_;
   std::vector<Traffic> traffic_;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 namespace {
 
 Eigen::Vector3d random_direction(Rng& rng) {
@@ -84,4 +84,4 @@ Mesh make_hedge(double length, double width, double height, Rng& rng) {
   return mesh;
 }
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

@@ -5,7 +5,7 @@
 #include "loopmark/core/random.hpp"
 #include "loopmark/simulation/mesh.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 
 /// A tree at the origin: trunk, branches, and a crown of loose leaves that beams pass through in part.
 struct TreeSpec {
@@ -23,4 +23,4 @@ Mesh make_bush(double radius, double height, Rng& rng);
 /// A trimmed hedge along x from 0 to `length`, centred on y = 0, with an uneven face.
 Mesh make_hedge(double length, double width, double height, Rng& rng);
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

@@ -7,7 +7,7 @@
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 
 SpeedProfile::SpeedProfile(const LanePath& path, const RoadNetwork& roads, const Limits& limits, std::uint64_t seed) {
   Rng rng(seed);
@@ -86,4 +86,4 @@ double SpeedProfile::distance(double time_s) const {
   return from + speed_[i] * since + 0.5 * acceleration(time_s) * since * since;
 }
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

@@ -7,7 +7,7 @@
 
 #include "loopmark/simulation/lane_path.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 
 /// When a vehicle is where on its path: accelerations bounded, slower in bends, with halts.
 class SpeedProfile {
@@ -37,4 +37,4 @@ class SpeedProfile {
   std::vector<double> leave_;   ///< later than arrival where it halts
 };
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

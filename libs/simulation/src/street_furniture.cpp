@@ -8,7 +8,7 @@
 #include "builder.hpp"
 #include "plants.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 namespace {
 
 constexpr Surface kSteel = {Material::kMetal, 128};
@@ -206,4 +206,4 @@ void fill_free_ground(Builder& b, std::uint64_t seed) {
   }
 }
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

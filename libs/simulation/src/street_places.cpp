@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 namespace {
 
 constexpr double kLane = 1.75;
@@ -64,4 +64,4 @@ std::pair<StreetPlace, StreetPlace> StreetPlaces::alike(Rng& rng) const {
   return {a, {turned, a.heading_rad + std::numbers::pi, true}};
 }
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

@@ -7,7 +7,7 @@
 #include "loopmark/core/random.hpp"
 #include "loopmark/simulation/town.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 
 /// A place on a street where a car may be, heading along the street or against it.
 struct StreetPlace {
@@ -33,4 +33,4 @@ class StreetPlaces {
   std::vector<StreetPlace> places_;
 };
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

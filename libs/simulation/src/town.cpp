@@ -16,13 +16,14 @@ void check(const TownOptions& o) {
   require_option(o.max_slope >= 0.0 && o.max_slope <= 0.15, "town.max_slope", "must lie between 0 and 0.15");
 }
 
-void Builder::put(const Mesh& mesh, const Eigen::Vector2d& p, double yaw) {
+void internal::Builder::put(const Mesh& mesh, const Eigen::Vector2d& p, double yaw) {
   append(town.mesh, mesh, pose_from_yaw(yaw, {p.x(), p.y(), ground(p)}));
 }
 
-Frontage::Frontage(const RoadEdge& e, double which_side) : edge(e), side(which_side), length(line_length(e.line)) {}
+internal::Frontage::Frontage(const RoadEdge& e, double which_side)
+    : edge(e), side(which_side), length(line_length(e.line)) {}
 
-LinePoint Frontage::at(double distance, double offset) const {
+LinePoint internal::Frontage::at(double distance, double offset) const {
   LinePoint p = line_at(edge.line, edge.turned ? length - distance : distance);
   if (edge.turned) {
     p.tangent = -p.tangent;
@@ -49,22 +50,22 @@ Town make_town(const TownOptions& options) {
   town.roads = std::move(layout.network);
   town.terrain =
       Terrain(options.seed, {layout.low, layout.high, layout.level_rows_y, layout.river_x, options.max_slope});
-  GroundPlan plan(layout.low, layout.high);
-  Builder builder{town, plan};
-  mark_streets(builder);
-  add_streets(builder);
+  internal::GroundPlan plan(layout.low, layout.high);
+  internal::Builder builder{town, plan};
+  internal::mark_streets(builder);
+  internal::add_streets(builder);
   for (const bool alike : {true, false}) {  // the alike blocks first, so that no neighbour changes them
     for (std::size_t e = 0; e < town.roads.edges.size(); ++e) {
       if (town.roads.edges[e].near_identical == alike) {
-        build_lots(builder, town.roads.edges[e], street_seed(town, e));
+        internal::build_parcels(builder, town.roads.edges[e], street_seed(town, e));
       }
     }
   }
   for (std::size_t e = 0; e < town.roads.edges.size(); ++e) {
-    furnish_street(builder, town.roads.edges[e], task_seed(street_seed(town, e), {1}));
+    internal::furnish_street(builder, town.roads.edges[e], task_seed(street_seed(town, e), {1}));
   }
-  fill_free_ground(builder, task_seed(options.seed, {11}));
-  add_open_ground(builder, task_seed(options.seed, {12}));
+  internal::fill_free_ground(builder, task_seed(options.seed, {11}));
+  internal::add_open_ground(builder, task_seed(options.seed, {12}));
   return town;
 }
 

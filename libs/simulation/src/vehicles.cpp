@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 namespace {
 
 struct VehicleShape {
@@ -107,4 +107,4 @@ Mesh make_pedestrian(double height, double stride) {
   return mesh;
 }
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

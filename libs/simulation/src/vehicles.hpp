@@ -5,7 +5,7 @@
 #include "loopmark/core/random.hpp"
 #include "loopmark/simulation/mesh.hpp"
 
-namespace loopmark::simulation {
+namespace loopmark::simulation::internal {
 
 enum class VehicleKind : std::uint8_t { kHatchback, kSaloon, kEstate, kVan, kTruck, kBus, kCount };
 
@@ -18,4 +18,4 @@ Mesh make_vehicle(VehicleKind kind, std::uint8_t shade);
 /// A walking person; origin on the ground, x forward; `stride` in [0, 1] opens the legs.
 Mesh make_pedestrian(double height, double stride);
 
-}  // namespace loopmark::simulation
+}  // namespace loopmark::simulation::internal

@@ -91,10 +91,10 @@ void add_parked_cars(Mesh& mesh, const Town& town, int day) {
     if (rng.uniform() >= town.parking[i].chance) {
       continue;
     }
-    const auto kind = static_cast<VehicleKind>(rng.below(4));
+    const auto kind = static_cast<internal::VehicleKind>(rng.below(4));
     Pose place = town.parking[i].T_world_car;
     place = place * pose_from_yaw(rng.uniform(-0.03, 0.03), {rng.uniform(-0.3, 0.3), rng.uniform(-0.12, 0.12), 0.0});
-    append(mesh, make_vehicle(kind, static_cast<std::uint8_t>(rng.below(256))), place);
+    append(mesh, internal::make_vehicle(kind, static_cast<std::uint8_t>(rng.below(256))), place);
   }
 }
 
@@ -102,14 +102,14 @@ void add_parked_cars(Mesh& mesh, const Town& town, int day) {
 
 ShapeList make_shapes() {
   ShapeList list;
-  for (int kind = 0; kind < static_cast<int>(VehicleKind::kCount); ++kind) {
-    list.meshes.push_back(make_vehicle(static_cast<VehicleKind>(kind), 128));
-    list.sizes.push_back(vehicle_size(static_cast<VehicleKind>(kind)));
+  for (int kind = 0; kind < static_cast<int>(internal::VehicleKind::kCount); ++kind) {
+    list.meshes.push_back(internal::make_vehicle(static_cast<internal::VehicleKind>(kind), 128));
+    list.sizes.push_back(internal::vehicle_size(static_cast<internal::VehicleKind>(kind)));
   }
   list.vehicles = list.meshes.size();
   for (const double stride : {0.2, 0.6, 1.0}) {
     for (const double height : {1.2, 1.65, 1.85}) {
-      list.meshes.push_back(make_pedestrian(height, stride));
+      list.meshes.push_back(internal::make_pedestrian(height, stride));
       list.sizes.emplace_back(0.6, 0.6);
     }
   }

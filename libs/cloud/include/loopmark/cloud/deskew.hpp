@@ -7,7 +7,7 @@
 
 #include "loopmark/core/point_cloud.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 
 /// How a spinning sensor sweeps: enough to tell the time of a point from its azimuth.
 struct SweepModel {
@@ -30,4 +30,4 @@ float time_from_azimuth(const Eigen::Vector3f& point, const SweepModel& sweep);
 std::vector<Eigen::Vector3f> deskewed(const std::vector<Eigen::Vector3f>& points,
                                       const std::vector<float>& time_offset_s, const Vector6d& velocity);
 
-}  // namespace loopmark
+}  // namespace loopmark::cloud

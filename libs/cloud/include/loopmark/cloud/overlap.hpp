@@ -6,7 +6,7 @@
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/search/kd_tree.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 
 struct Overlap {
   double source = 0.0;     ///< n / |A|: the share of the source that the target has seen
@@ -17,10 +17,10 @@ struct Overlap {
 class OverlapCloud {
  public:
   explicit OverlapCloud(const std::vector<Eigen::Vector3f>& points);
-  const KdTree& tree() const { return tree_; }
+  const search::KdTree& tree() const { return tree_; }
 
  private:
-  KdTree tree_;
+  search::KdTree tree_;
 };
 
 /// Moves the source by the truth and counts the n source centroids that have a target centroid nearer than sqrt(2) m.
@@ -30,4 +30,4 @@ Overlap overlap(const OverlapCloud& source, const OverlapCloud& target, const Po
 /// The definition to the letter: the source is moved first, then both are reduced to centroids of 1 m voxels.
 Overlap overlap(const PointCloud& source, const PointCloud& target, const Pose& T_target_source);
 
-}  // namespace loopmark
+}  // namespace loopmark::cloud

@@ -8,10 +8,10 @@
 #include <functional>
 
 #include "loopmark/core/point_cloud.hpp"
-#include "loopmark/core/spill_store.hpp"
 #include "loopmark/search/voxel_table.hpp"
+#include "loopmark/storage/spill_store.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 
 /// One point a voxel, in memory.
 class ThinCloud {
@@ -31,7 +31,7 @@ class ThinCloud {
 
  private:
   float inverse_;
-  VoxelTable table_;
+  search::VoxelTable table_;
   std::vector<Eigen::Vector3f> points_;
   std::vector<float> intensity_;
 };
@@ -53,12 +53,12 @@ class TiledCloud {
   using Key = std::array<std::int32_t, 3>;
 
   double voxel_m_;
-  SpillStore<Key, ThinCloud> tiles_;
+  storage::SpillStore<Key, ThinCloud> tiles_;
   bool with_intensity_ = true;
   std::size_t size_ = 0;
 };
 
-/// The same in one piece for an overview: voxels grow by two whenever there are more than `most` points.
+/// The same in one segment for an overview: voxels grow by two whenever there are more than `most` points.
 class OverviewCloud {
  public:
   OverviewCloud(double voxel_m, std::size_t most);
@@ -72,4 +72,4 @@ class OverviewCloud {
   ThinCloud cloud_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::cloud

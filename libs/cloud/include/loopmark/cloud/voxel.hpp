@@ -8,7 +8,7 @@
 
 #include "loopmark/core/point_cloud.hpp"
 
-namespace loopmark {
+namespace loopmark::cloud {
 
 /// Indices of one original point a voxel, the first seen, in ascending order: the paper's downsampling
 /// (voxel 0.3 m, original points rather than centroids). size_m: edge of a voxel, metres, > 0.
@@ -25,4 +25,4 @@ std::vector<Eigen::Vector3f> voxel_centroids(const std::vector<Eigen::Vector3f>&
 /// One original point a voxel, with every channel of the cloud.
 PointCloud voxel_downsampled(const PointCloud& cloud, double size_m);
 
-}  // namespace loopmark
+}  // namespace loopmark::cloud

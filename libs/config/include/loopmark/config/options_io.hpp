@@ -14,7 +14,7 @@
 
 #include "loopmark/config/visitors.hpp"
 #include "loopmark/core/error.hpp"
-#include "loopmark/core/files.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::config {
 
@@ -54,7 +54,7 @@ template <class Options>
 Options load(const std::filesystem::path& file, const std::vector<std::string>& settings) {
   std::vector<Node> sources;
   if (!file.empty()) {
-    sources.push_back(parse_yaml(read_file(file), file.string()));
+    sources.push_back(parse_yaml(storage::read_file(file), file.string()));
   }
   for (const std::string& setting : settings) {
     sources.push_back(parse_setting(setting));

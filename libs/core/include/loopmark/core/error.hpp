@@ -27,4 +27,7 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
+/// What the program ends with when this has gone wrong.
+ExitCode exit_code_of(const std::exception& problem);
+
 }  // namespace loopmark

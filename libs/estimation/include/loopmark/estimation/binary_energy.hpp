@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 /// Minimises sums of unary and submodular pairwise terms of binary variables by a minimum cut (Kolmogorov and Zabih
 /// 2004; flow by Dinic's algorithm).
@@ -38,4 +38,4 @@ class BinaryEnergy {
   std::vector<std::size_t> next_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

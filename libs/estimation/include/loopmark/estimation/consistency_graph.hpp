@@ -7,9 +7,11 @@
 
 #include "loopmark/estimation/point_pairs.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
+namespace internal {
 class Scorer;
+}  // namespace internal
 
 /// Which matches may be right together: two are joined when the distance of their points is the same in both
 /// scans, whatever the motion (the translation- and rotation-invariant measurements of TEASER, Yang et al. 2021; the
@@ -45,7 +47,7 @@ class ConsistencyGraph {
 
  private:
   /// Fills the rows of a block from its diagonal on; mirror fills what is left of the diagonal from the rows above.
-  void compare(const Scorer& arrays, float tolerance_m, std::size_t block);
+  void compare(const internal::Scorer& arrays, float tolerance_m, std::size_t block);
   void mirror(std::size_t block);
 
   template <class Visit>
@@ -71,4 +73,4 @@ std::vector<std::size_t> maximum_core(const ConsistencyGraph& graph);
 /// neighbours shared with the seed. Not always the maximum one.
 std::vector<std::size_t> large_clique(const ConsistencyGraph& graph, std::size_t seeds);
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

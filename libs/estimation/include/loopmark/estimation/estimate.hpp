@@ -8,7 +8,7 @@
 
 #include "loopmark/core/pose.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 /// Why an estimator came to an end.
 enum class EstimateStop { kDone, kConfident, kIterationLimit, kTimeLimit, kTooFewMatches };
@@ -30,4 +30,4 @@ struct Estimate {
   std::string summary() const;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

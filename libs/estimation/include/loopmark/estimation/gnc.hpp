@@ -8,7 +8,7 @@
 #include "loopmark/estimation/estimate.hpp"
 #include "loopmark/estimation/point_pairs.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 /// What is left of the consistency graph before the motion is estimated.
 enum class Pruning {
@@ -48,4 +48,4 @@ Estimate gnc_clique(const PointPairs& pairs, const GncOptions& options = {});
 Pose gnc_tls(const PointPairs& pairs, const std::vector<std::size_t>& indices, double noise_bound_m,
              std::vector<double>* weights = nullptr);
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

@@ -8,7 +8,7 @@
 #include "loopmark/core/pose.hpp"
 #include "loopmark/matching/correspondence.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 /// Matched points (metres), side by side, the best match first: what every estimator works on.
 struct PointPairs {
@@ -18,7 +18,7 @@ struct PointPairs {
   std::size_t size() const { return source.size(); }
 
   /// The points of the matches, in their order. Throws std::out_of_range when a match names no point.
-  static PointPairs of(const Correspondences& matches, const std::vector<Eigen::Vector3f>& source,
+  static PointPairs of(const matching::Correspondences& matches, const std::vector<Eigen::Vector3f>& source,
                        const std::vector<Eigen::Vector3f>& target);
 };
 
@@ -37,4 +37,4 @@ std::vector<std::size_t> inliers_of(const PointPairs& pairs, const Pose& T_targe
 /// paper's RANSAC); gives the motion back unchanged when fewer than 3 pairs are within `threshold_m`.
 Pose reweighted_fit(const PointPairs& pairs, const Pose& initial, double threshold_m, int iterations = 10);
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

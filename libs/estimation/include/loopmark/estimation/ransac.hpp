@@ -8,7 +8,7 @@
 #include "loopmark/estimation/estimate.hpp"
 #include "loopmark/estimation/point_pairs.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 /// How minimal sets are drawn.
 enum class Sampler {
@@ -98,4 +98,4 @@ double sprt_threshold(double epsilon, double delta, double model_cost);
 /// Iterations after which an all-inlier sample of three was drawn with the confidence, for an inlier share w.
 double iterations_needed(double w, double confidence);
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

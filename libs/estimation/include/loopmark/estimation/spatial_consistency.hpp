@@ -6,7 +6,7 @@
 #include "loopmark/estimation/estimate.hpp"
 #include "loopmark/estimation/point_pairs.hpp"
 
-namespace loopmark {
+namespace loopmark::estimation {
 
 /// Second-order spatial consistency: the core of PointDSC (Bai et al. 2021) without what is learned, as in SC2-PCR
 /// (Chen et al. 2022).
@@ -37,4 +37,4 @@ void check(const SpatialConsistencyOptions& options);
 /// keeps the one that most matches agree with. Deterministic.
 Estimate spatial_consistency(const PointPairs& pairs, const SpatialConsistencyOptions& options = {});
 
-}  // namespace loopmark
+}  // namespace loopmark::estimation

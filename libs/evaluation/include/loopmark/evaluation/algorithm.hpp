@@ -11,9 +11,9 @@
 
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/evaluation/outcome.hpp"
-#include "loopmark/registration/paper_options.hpp"
+#include "loopmark/feature_registration/options.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 /// The two scans of a pair, and what several algorithms need of them; made when first asked for. One thread.
 class PairScans {
@@ -44,7 +44,7 @@ class PairScans {
 /// One pair as an algorithm gets it.
 struct PairTask {
   std::size_t index = 0;  ///< place in the set; negatives follow behind the positives
-  PairKey key;
+  pair_sets::PairKey key;
   PairScans* scans = nullptr;                              ///< null where no algorithm needs scans; perturbed already
   const Pose* perturbation = nullptr;                      ///< by which the source was moved; null: it was not
   const std::map<std::string, Answer>* earlier = nullptr;  ///< answers to this pair of the algorithms before
@@ -64,7 +64,8 @@ class RegistrationAlgorithm {
 using AlgorithmList = std::vector<std::unique_ptr<RegistrationAlgorithm>>;
 
 /// The registration engine, called "engine".
-std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const EngineOptions& options, std::string settings);
+std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const registration::EngineOptions& options,
+                                                             std::string settings);
 
 /// Descriptors made elsewhere: keypoints and descriptors of a frame are read from folder/SESSION/FRAME.npz
 /// (read_descriptors), FRAME as a plain number or with six digits. Algorithms on them are called "NAME@DOMAIN".
@@ -79,9 +80,9 @@ std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& n
                                                             const DescriptorSource& descriptors = {});
 
 /// The paper's pipeline with options of one's own; `settings` are the options as text.
-std::unique_ptr<RegistrationAlgorithm> make_configured_algorithm(const std::string& name, const PaperOptions& options,
-                                                                 const std::string& settings,
-                                                                 const DescriptorSource& descriptors = {});
+std::unique_ptr<RegistrationAlgorithm> make_configured_algorithm(
+    const std::string& name, const feature_registration::FeatureRegistrationOptions& options,
+    const std::string& settings, const DescriptorSource& descriptors = {});
 
 /// Answers that were found before: one motion a pair. Pairs behind the last (negatives) fail.
 std::unique_ptr<RegistrationAlgorithm> make_motions_algorithm(std::string name, std::vector<Pose> motions);
@@ -92,4 +93,4 @@ std::unique_ptr<RegistrationAlgorithm> make_refined_algorithm(const std::string&
 /// Names of the refinements, the paper's three first.
 std::vector<std::string> refinement_methods();
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -10,7 +10,7 @@
 #include "loopmark/evaluation/algorithm.hpp"
 #include "loopmark/evaluation/result_folder.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 /// Loads the scan of a session and frame. Thread-safe; throws InputError when there is none.
 using ScanLoader = std::function<PointCloud(int session, int frame)>;
@@ -33,4 +33,4 @@ Experiment describe_experiment(const ExperimentTask& task, const AlgorithmList& 
 void run_experiment(const ExperimentTask& task, const AlgorithmList& algorithms, const ScanLoader& load,
                     const std::filesystem::path& folder);
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -9,7 +9,7 @@
 
 #include "loopmark/evaluation/algorithm.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 struct ExternalOptions {
   std::string command;            ///< run by /bin/sh -c
@@ -22,4 +22,4 @@ struct ExternalOptions {
 /// it hangs, dies, or answers nonsense counts as a failure with that reason, and the program is started anew.
 std::unique_ptr<RegistrationAlgorithm> make_external_algorithm(std::string name, const ExternalOptions& options);
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "loopmark/core/options.hpp"
-#include "loopmark/evaluation/pair_set.hpp"
+#include "loopmark/pair_sets/pair_set.hpp"
 #include "loopmark/registration/engine.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 /// When a registration counts as right: both errors strictly below (paper, Sec. 5).
 struct SuccessCriterion {
@@ -45,8 +45,8 @@ struct Answer {
   AnswerStatus status = AnswerStatus::kAnswered;
   double p_correct = std::numeric_limits<double>::quiet_NaN();  ///< or the algorithm's score; NaN: it gives none
   std::string note;                ///< the reason of a failure; the source of the hypothesis
-  Evidence numbers;                ///< counts and evidence by name ("matches_initial", "matches_mutual", ...)
-  std::vector<StageTime> timings;  ///< seconds of each stage
+  registration::Evidence numbers;  ///< counts and evidence by name ("matches_initial", "matches_mutual", ...)
+  std::vector<registration::StageTime> timings;  ///< seconds of each stage
   double paper_seconds =
       std::numeric_limits<double>::quiet_NaN();  ///< the paper's accounting: filtering, estimation, ICP
   double total_seconds = std::numeric_limits<double>::quiet_NaN();  ///< raw scans to answer
@@ -71,4 +71,4 @@ Outcome judge(std::size_t pair, const std::string& algorithm, Answer answer, con
 /// Records an answer to a pair that has none.
 Outcome judge_negative(std::size_t pair, const std::string& algorithm, Answer answer);
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace loopmark::paper {
+namespace loopmark::evaluation::paper {
 
 /// Tables "Evaluation of Registration Algorithms" and "Cross-Domain Evaluation" (tested on NuScenes-Boston).
 struct EvaluationRow {
@@ -45,4 +45,4 @@ struct SetSizes {
 };
 const std::vector<SetSizes>& set_sizes();
 
-}  // namespace loopmark::paper
+}  // namespace loopmark::evaluation::paper

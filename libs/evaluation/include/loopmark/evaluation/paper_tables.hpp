@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "loopmark/evaluation/result_folder.hpp"
-#include "loopmark/evaluation/text_table.hpp"
+#include "loopmark/text/text_table.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 /// A result with the names of the set it was tested on and of the set its features were trained on.
 struct DomainResult {
@@ -24,20 +24,21 @@ std::vector<DomainResult> split_by_domain(const std::string& test, const std::st
 
 /// Recall and mean seconds of each algorithm alone and with ICP ("Evaluation of Registration Algorithms"; cross:
 /// "Cross-Domain Evaluation"). An algorithm X stands in one row with X+icp.
-TextTable paper_evaluation_table(const StoredResult& result, bool cross);
+text::TextTable paper_evaluation_table(const StoredResult& result, bool cross);
 
 /// Recall of every algorithm for every test and train domain ("All Registration Sets Cross-Domain").
-TextTable paper_matrix_table(const std::vector<DomainResult>& results);
+text::TextTable paper_matrix_table(const std::vector<DomainResult>& results);
 /// Mean seconds, the same layout ("Running Times").
-TextTable paper_times_table(const std::vector<DomainResult>& results);
+text::TextTable paper_times_table(const std::vector<DomainResult>& results);
 /// Mean number of matches before and after the mutual check ("Pair-Match Set Sizes").
-TextTable paper_match_sizes_table(const std::vector<DomainResult>& results);
+text::TextTable paper_match_sizes_table(const std::vector<DomainResult>& results);
 
 /// Recall, TE and RE (mean, median, 95 %) of refinements ("Refinement Experiment").
-TextTable paper_refinement_table(const StoredResult& result);
+text::TextTable paper_refinement_table(const StoredResult& result);
 
 /// Sizes and difficulty of sets ("Balanced registration set sizes", Fig. "Challenging registration sets").
-TextTable paper_sets_table(const std::vector<std::pair<std::string, std::vector<RegistrationPair>>>& sets);
+text::TextTable paper_sets_table(
+    const std::vector<std::pair<std::string, std::vector<pair_sets::RegistrationPair>>>& sets);
 
 /// One run of a repeated experiment in the plane of time and recall.
 struct RunPoint {
@@ -58,7 +59,7 @@ std::vector<Variant> variants_of(const StoredResult& result);
 std::vector<RunPoint> convex_hull(std::vector<RunPoint> points);
 
 /// Mean, spread and hull of every variant (figures "RANSAC Ablation" and "GPF Ablation").
-TextTable paper_ablation_table(const StoredResult& result);
+text::TextTable paper_ablation_table(const StoredResult& result);
 
 /// Success and failure of one algorithm in the bins of one quantity (figure "Analysis of Failures").
 struct FailureHistogram {
@@ -67,6 +68,6 @@ struct FailureHistogram {
   std::vector<std::size_t> successes, failures;
 };
 std::vector<FailureHistogram> failure_histograms(const StoredResult& result, const std::string& algorithm);
-TextTable paper_failures_table(const StoredResult& result, const std::string& algorithm);
+text::TextTable paper_failures_table(const StoredResult& result, const std::string& algorithm);
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

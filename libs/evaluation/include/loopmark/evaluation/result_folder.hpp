@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "loopmark/core/record_file.hpp"
 #include "loopmark/evaluation/summary.hpp"
+#include "loopmark/storage/record_file.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 /// What makes results comparable: kept as experiment.json.
 struct Experiment {
@@ -63,8 +63,8 @@ class OutcomeWriter {
   mutable std::mutex mutex_;
   std::vector<Outcome> found_;
   std::set<std::pair<std::string, std::size_t>> done_;
-  std::unique_ptr<RecordWriter> records_;
-  std::unique_ptr<RecordWriter> times_;
+  std::unique_ptr<storage::RecordWriter> records_;
+  std::unique_ptr<storage::RecordWriter> times_;
 };
 
 /// Reads a result with all of its shards. Throws InputError when pairs are missing, naming the first ones.
@@ -84,4 +84,4 @@ void write_products(const std::filesystem::path& folder, const StoredResult& res
 /// Orders outcomes by algorithm (in the order of `names`), then by pair.
 void sort_outcomes(std::vector<Outcome>& outcomes, const std::vector<std::string>& names);
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

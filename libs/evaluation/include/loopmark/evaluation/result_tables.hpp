@@ -6,30 +6,30 @@
 #include <vector>
 
 #include "loopmark/evaluation/result_folder.hpp"
-#include "loopmark/evaluation/text_table.hpp"
+#include "loopmark/text/text_table.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 /// Recall with its interval, errors, what was answered: one row an algorithm.
-TextTable overview_table(const Experiment& experiment, const std::vector<AlgorithmSummary>& summaries);
+text::TextTable overview_table(const Experiment& experiment, const std::vector<AlgorithmSummary>& summaries);
 /// Seconds a pair: the paper's accounting and the whole.
-TextTable times_table(const std::vector<AlgorithmSummary>& summaries);
+text::TextTable times_table(const std::vector<AlgorithmSummary>& summaries);
 /// Mean, median and 95th percentile of TE and RE, over all pairs and over successes.
-TextTable errors_table(const std::vector<AlgorithmSummary>& summaries);
+text::TextTable errors_table(const std::vector<AlgorithmSummary>& summaries);
 /// Recall by bins of one quantity.
-TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::string& name,
-                     const std::string& caption, std::vector<RecallBin> AlgorithmSummary::*bins);
+text::TextTable bins_table(const std::vector<AlgorithmSummary>& summaries, const std::string& name,
+                           const std::string& caption, std::vector<RecallBin> AlgorithmSummary::*bins);
 /// What the algorithms say of their own answers; false accepts among the negatives.
-TextTable certainty_table(const std::vector<AlgorithmSummary>& summaries);
+text::TextTable certainty_table(const std::vector<AlgorithmSummary>& summaries);
 /// Stated probability against share of right answers.
-TextTable reliability_table_of(const std::vector<AlgorithmSummary>& summaries);
+text::TextTable reliability_table_of(const std::vector<AlgorithmSummary>& summaries);
 /// Median seconds of each stage.
-TextTable stages_table(const std::vector<AlgorithmSummary>& summaries);
+text::TextTable stages_table(const std::vector<AlgorithmSummary>& summaries);
 /// McNemar's test of every two algorithms.
-TextTable paired_table(const std::vector<PairedTest>& tests);
+text::TextTable paired_table(const std::vector<PairedTest>& tests);
 
 /// All that apply to the result, in the order of the report.
-std::vector<TextTable> result_tables(const StoredResult& result, const std::vector<AlgorithmSummary>& summaries,
-                                     const std::vector<PairedTest>& tests);
+std::vector<text::TextTable> result_tables(const StoredResult& result, const std::vector<AlgorithmSummary>& summaries,
+                                           const std::vector<PairedTest>& tests);
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

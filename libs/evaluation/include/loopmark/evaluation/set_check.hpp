@@ -5,7 +5,7 @@
 
 #include "loopmark/evaluation/experiment.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 /// Overlaps of a few pairs as the set has them and as the scans give them.
 struct SetCheck {
@@ -17,7 +17,7 @@ struct SetCheck {
 };
 
 /// Recomputes the symmetric overlap of `samples` pairs, spread over the set.
-SetCheck check_overlaps(const std::vector<RegistrationPair>& pairs, const std::vector<Pose>& perturbations,
+SetCheck check_overlaps(const std::vector<pair_sets::RegistrationPair>& pairs, const std::vector<Pose>& perturbations,
                         const ScanLoader& load, std::size_t samples = 5);
 
 /// Makes sure that the task's scans are those that its set was made of; throws InputError when they are not. Where
@@ -25,4 +25,4 @@ SetCheck check_overlaps(const std::vector<RegistrationPair>& pairs, const std::v
 /// them; returns whether that was so.
 bool match_set_to_scans(ExperimentTask& task, const ScanLoader& load);
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "loopmark/evaluation/outcome.hpp"
-#include "loopmark/evaluation/statistics.hpp"
+#include "loopmark/statistics/statistics.hpp"
 
-namespace loopmark {
+namespace loopmark::evaluation {
 
 /// A pair of an experiment, as far as the statistics need it.
 struct EvaluatedSet {
-  std::vector<RegistrationPair> pairs;
-  std::vector<PairKey> negatives;
+  std::vector<pair_sets::RegistrationPair> pairs;
+  std::vector<pair_sets::PairKey> negatives;
 
   std::size_t size() const { return pairs.size() + negatives.size(); }
-  const PairKey& key(std::size_t index) const {
+  const pair_sets::PairKey& key(std::size_t index) const {
     return index < pairs.size() ? pairs[index].key : negatives[index - pairs.size()];
   }
 };
@@ -36,24 +36,24 @@ struct AlgorithmSummary {
   std::string name;
   std::size_t pairs = 0;
   std::size_t successes = 0;
-  Interval recall_interval;        ///< Wilson, 95 %
-  std::size_t answered = 0;        ///< positives that it stood for
-  std::size_t answered_wrong = 0;  ///< of these, the wrong ones
-  std::size_t failed = 0;          ///< no motion: failure, time limit, crash
-  Spread te_m, re_deg;             ///< over all pairs
-  Spread te_success_m, re_success_deg;
-  Interval te_median_interval_m;  ///< bootstrap, 95 %
-  Interval re_median_interval_deg;
-  Spread paper_seconds, total_seconds;
+  statistics::Interval recall_interval;  ///< Wilson, 95 %
+  std::size_t answered = 0;              ///< positives that it stood for
+  std::size_t answered_wrong = 0;        ///< of these, the wrong ones
+  std::size_t failed = 0;                ///< no motion: failure, time limit, crash
+  statistics::Spread te_m, re_deg;       ///< over all pairs
+  statistics::Spread te_success_m, re_success_deg;
+  statistics::Interval te_median_interval_m;  ///< bootstrap, 95 %
+  statistics::Interval re_median_interval_deg;
+  statistics::Spread paper_seconds, total_seconds;
   std::vector<std::pair<std::string, double>> stage_medians_s;  ///< median seconds of each stage
   std::vector<std::pair<std::string, double>> number_means;     ///< mean of each number of the answers
   std::size_t negatives = 0;
   std::size_t false_accepts = 0;  ///< negatives that it stood for
-  Interval false_accept_interval;
+  statistics::Interval false_accept_interval;
   bool has_scores = false;  ///< it gives P(correct) or a score
-  std::vector<ReliabilityBin> reliability;
+  std::vector<statistics::ReliabilityBin> reliability;
   double calibration_error = 0.0;
-  std::vector<PrecisionRecallPoint> precision_recall;
+  std::vector<statistics::PrecisionRecallPoint> precision_recall;
   double average_precision = 0.0;
   std::vector<RecallBin> by_overlap;   ///< symmetric overlap
   std::vector<RecallBin> by_distance;  ///< metres
@@ -83,4 +83,4 @@ PairedTest paired_test(const std::vector<Outcome>& outcomes, const std::string& 
 /// Every two algorithms, in the order of `names`.
 std::vector<PairedTest> paired_tests(const std::vector<Outcome>& outcomes, const std::vector<std::string>& names);
 
-}  // namespace loopmark
+}  // namespace loopmark::evaluation

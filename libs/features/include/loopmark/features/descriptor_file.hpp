@@ -8,12 +8,12 @@
 
 #include "loopmark/search/descriptor_matrix.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 
 /// Points with descriptors computed elsewhere, for example by a trained network.
 struct DescriptorFile {
   std::vector<Eigen::Vector3f> points;  ///< metres, in the sensor's frame, one a row of the descriptors
-  DescriptorMatrix descriptors;
+  search::DescriptorMatrix descriptors;
 };
 
 /// Reads a .npz archive of NumPy, stored or compressed, as FCGF, D3Feat and others export it: descriptors in an array
@@ -24,4 +24,4 @@ DescriptorFile read_descriptors(const std::filesystem::path& npz);
 /// Reads the two arrays from two .npy files.
 DescriptorFile read_descriptors(const std::filesystem::path& descriptors_npy, const std::filesystem::path& points_npy);
 
-}  // namespace loopmark
+}  // namespace loopmark::features

@@ -8,7 +8,7 @@
 #include "loopmark/core/options.hpp"
 #include "loopmark/search/descriptor_matrix.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 
 constexpr int kFpfhDimension = 33;
 
@@ -26,7 +26,7 @@ inline void check(const FpfhOptions& o) { require_option(o.radius_m > 0, "radius
 /// Fast Point Feature Histograms (Rusu et al. 2009): 3 x 11 bins a point, each of the three histograms summing
 /// to 100; the same values as PCL's. Rows are in the order of `wanted`, or of all points where `wanted` is empty;
 /// neighbours are always all points. Points without a normal (zero) are no neighbours and get a zero row.
-DescriptorMatrix fpfh(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
-                      const FpfhOptions& options, const std::vector<std::size_t>& wanted = {});
+search::DescriptorMatrix fpfh(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+                              const FpfhOptions& options, const std::vector<std::size_t>& wanted = {});
 
-}  // namespace loopmark
+}  // namespace loopmark::features

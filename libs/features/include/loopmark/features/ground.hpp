@@ -7,7 +7,7 @@
 
 #include "loopmark/core/options.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 
 struct GroundOptions {
   double cell_m = 4.0;
@@ -31,4 +31,4 @@ inline void check(const GroundOptions& o) { require_option(o.cell_m > 0, "cell_m
 std::vector<bool> ground_points(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
                                 const GroundOptions& options = {});
 
-}  // namespace loopmark
+}  // namespace loopmark::features

@@ -8,7 +8,7 @@
 
 #include "loopmark/core/options.hpp"
 
-namespace loopmark {
+namespace loopmark::features {
 
 struct NormalOptions {
   double radius_m = 1.2;
@@ -39,4 +39,4 @@ struct Normals {
 Normals estimate_normals(const std::vector<Eigen::Vector3f>& points, const NormalOptions& options,
                          const Eigen::Vector3f& sensor = Eigen::Vector3f::Zero());
 
-}  // namespace loopmark
+}  // namespace loopmark::features

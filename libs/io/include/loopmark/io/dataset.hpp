@@ -11,7 +11,7 @@
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/io/drive_log.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 
 struct DatasetOptions {
   std::string layout = "auto";   ///< forces a layout
@@ -77,4 +77,4 @@ std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& root,
                                       const std::filesystem::path& sessions_file = {},
                                       const DatasetOptions& options = {});
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -14,7 +14,7 @@
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/io/sweep.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 
 /// A scan that cannot be read or makes no sense; the run may skip and count it.
 class DamagedScan : public InputError {
@@ -33,7 +33,7 @@ struct LogInfo {
   std::string truth_problem;   ///< why poses that lie there are not used; empty when all is well
   std::string problem;         ///< what is wrong with the log as a whole (a truncated rawlog); empty when nothing is
   std::vector<std::filesystem::path> companions;  ///< files beside the scans that were read: times, poses, calibration
-  std::optional<SweepModel> sweep;                ///< how the points' times are rebuilt where the log has none
+  std::optional<cloud::SweepModel> sweep;         ///< how the points' times are rebuilt where the log has none
   std::optional<bool> motion_compensated;         ///< what the log itself says, not measured
 };
 
@@ -110,4 +110,4 @@ void check(const LogOptions& options);
 /// Opens a log, guessing its format from what is there. Throws InputError when nothing readable is found.
 std::unique_ptr<DriveLog> open_log(const std::filesystem::path& path, const LogOptions& options = {});
 
-}  // namespace loopmark
+}  // namespace loopmark::io

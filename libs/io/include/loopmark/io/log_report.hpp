@@ -11,7 +11,7 @@
 #include "loopmark/io/dataset.hpp"
 #include "loopmark/io/drive_log.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 
 /// What the stamps of a log show.
 struct StampFacts {
@@ -100,4 +100,4 @@ DatasetReport examine_dataset(const Dataset& dataset);
 std::string report_text(const DatasetReport& report);
 std::string report_json(const DatasetReport& report);
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -13,7 +13,7 @@
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/io/drive_log.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 
 /// A cloud as its file has it, without the points that make no sense.
 struct PointFile {
@@ -47,4 +47,4 @@ using PlyPart = std::function<void(const PointCloud&, const std::vector<Rgb>&)>;
 void write_ply_in_parts(const std::filesystem::path& path, std::size_t count,
                         const std::function<void(const PlyPart& add)>& fill);
 
-}  // namespace loopmark
+}  // namespace loopmark::io

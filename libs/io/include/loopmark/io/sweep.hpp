@@ -9,12 +9,12 @@
 
 #include "loopmark/cloud/deskew.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 
 /// What a sweep.txt beside the scans says, in plain words: "clockwise" or "counter-clockwise", "seam at the
 /// rear" (front, left, right), "0.1 s a sweep", "not motion compensated".
 struct SweepHint {
-  std::optional<SweepModel> model;         ///< set when the direction is said
+  std::optional<cloud::SweepModel> model;  ///< set when the direction is said
   std::optional<bool> motion_compensated;  ///< set when it is said
 };
 SweepHint parse_sweep_hint(const std::string& text);
@@ -22,4 +22,4 @@ SweepHint parse_sweep_hint(const std::string& text);
 /// The hint of the file; nothing when there is no such file.
 SweepHint read_sweep_hint(const std::filesystem::path& path);
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -9,7 +9,7 @@
 
 #include "loopmark/core/pose.hpp"
 
-namespace loopmark {
+namespace loopmark::io {
 
 /// Poses with their stamps; stamps_s is empty where the file has none.
 struct Trajectory {
@@ -33,4 +33,4 @@ Trajectory read_trajectory(const std::filesystem::path& path);
 /// the range the nearest end holds. `trajectory` is not empty and its stamps rise.
 Pose pose_at(const Trajectory& trajectory, double stamp_s);
 
-}  // namespace loopmark
+}  // namespace loopmark::io

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-namespace loopmark {
+namespace loopmark::matching {
 
 /// A putative match: a source point and the target point nearest to it in feature space.
 struct Correspondence {
@@ -26,4 +26,4 @@ inline bool better(const Correspondence& a, const Correspondence& b) {
          std::make_tuple(!b.mutual, b.ratio, b.source, b.target);
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::matching

@@ -10,7 +10,7 @@
 #include "loopmark/matching/correspondence.hpp"
 #include "loopmark/matching/nearest_two.hpp"
 
-namespace loopmark {
+namespace loopmark::matching {
 
 /// One correspondence for every source row that has a neighbour (paper, Sec. 4), in the order of the rows.
 Correspondences correspondences_of(const TwoWayNearest& nearest);
@@ -53,4 +53,4 @@ std::size_t water_level(const std::vector<std::size_t>& counts, double wanted);
 Correspondences grid_prioritized_filter(const Correspondences& matches, const std::vector<Eigen::Vector3f>& source,
                                         const GpfOptions& options);
 
-}  // namespace loopmark
+}  // namespace loopmark::matching

@@ -8,7 +8,7 @@
 
 #include "loopmark/search/descriptor_matrix.hpp"
 
-namespace loopmark {
+namespace loopmark::matching {
 
 constexpr std::uint32_t kNoNeighbour = std::numeric_limits<std::uint32_t>::max();
 
@@ -29,6 +29,6 @@ struct TwoWayNearest {
 /// neighbour and have none. Among equal distances the lower row wins. Distances are sums of squared float
 /// differences, not |a|^2 + |b|^2 - 2ab, whose rounding would exchange near-equal neighbours.
 /// Throws std::invalid_argument when the two matrices have different numbers of columns.
-TwoWayNearest nearest_two(const DescriptorMatrix& source, const DescriptorMatrix& target);
+TwoWayNearest nearest_two(const search::DescriptorMatrix& source, const search::DescriptorMatrix& target);
 
-}  // namespace loopmark
+}  // namespace loopmark::matching

@@ -18,7 +18,7 @@ class CObservation;
 class CSensoryFrame;
 }  // namespace mrpt::obs
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 
 mrpt::poses::CPose3D to_mrpt(const Pose& pose);
 Pose from_mrpt(const mrpt::poses::CPose3D& pose);
@@ -43,4 +43,4 @@ std::optional<Scan> scan_from_sensory_frame(const mrpt::obs::CSensoryFrame& fram
 /// (intensities rounded to 0..255; those in 0..1 are scaled first), else a CObservationPointCloud.
 std::shared_ptr<mrpt::obs::CObservation> observation_from_scan(const Scan& scan, const std::string& sensor_label);
 
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

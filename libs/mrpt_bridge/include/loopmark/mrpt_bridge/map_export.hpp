@@ -11,7 +11,7 @@
 
 #include "loopmark/core/point_cloud.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 
 /// A keyframe as mrpt::maps::CSimpleMap holds it.
 struct SimpleMapKeyframe {
@@ -38,4 +38,4 @@ struct SceneContent {
 /// Writes a scene for MRPT's SceneViewer3D: trajectory, loop closures, points, a grid. Needs no display.
 void write_scene(const std::filesystem::path& path, const SceneContent& content);
 
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

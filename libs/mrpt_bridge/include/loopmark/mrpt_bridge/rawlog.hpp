@@ -11,7 +11,7 @@
 
 #include "loopmark/core/point_cloud.hpp"
 
-namespace loopmark {
+namespace loopmark::mrpt_bridge {
 
 /// The LiDAR scans of a rawlog (gzip or plain; sensory frames or single observations) in order. Opening reads the
 /// whole file once; reading scans in order costs no more than reading the file. Thread-safe.
@@ -63,4 +63,4 @@ class RawlogWriter {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::mrpt_bridge

@@ -12,7 +12,7 @@
 #include "loopmark/core/pose.hpp"
 #include "loopmark/occupancy/occupancy_options.hpp"
 
-namespace loopmark {
+namespace loopmark::occupancy {
 
 struct OccupancyStatistics {
   std::size_t scans = 0;
@@ -45,4 +45,4 @@ class OccupancyMapBuilder {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::occupancy

@@ -6,7 +6,7 @@
 
 #include "loopmark/core/options.hpp"
 
-namespace loopmark {
+namespace loopmark::occupancy {
 
 /// Options of the occupancy map; probabilities are OctoMap's own defaults.
 struct OccupancyOptions {
@@ -33,4 +33,4 @@ void describe(Visitor& v, OccupancyOptions& o) {
 /// Throws InputError naming the option whose value makes no sense.
 void check(const OccupancyOptions& options);
 
-}  // namespace loopmark
+}  // namespace loopmark::occupancy

@@ -5,11 +5,11 @@
 
 #include <vector>
 
-#include "loopmark/odometry/health.hpp"
 #include "loopmark/odometry/local_map.hpp"
 #include "loopmark/odometry/options.hpp"
+#include "loopmark/odometry/tracking_status.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 
 /// Points of a scan that are aligned, lidar frame; `ground`: which of them are probably ground, or empty.
 struct Keypoints {
@@ -21,7 +21,7 @@ struct Keypoints {
 
 struct Alignment {
   Pose T_map_lidar = Pose::Identity();
-  Health health;
+  TrackingStatus tracking_status;
 };
 
 /// Moves `keypoints` onto the map from the start `T_map_lidar`: Gauss-Newton over robust (Geman-McClure) distances
@@ -37,4 +37,4 @@ inline Alignment align(const std::vector<Eigen::Vector3f>& points, const LocalMa
   return align(Keypoints{points}, map, T_map_lidar, threshold_m, options);
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

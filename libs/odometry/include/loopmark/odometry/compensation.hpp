@@ -12,12 +12,12 @@
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/odometry/options.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 
 /// How well the scans fit each other under one assumption.
 struct CompensationTrial {
   Compensation assumption = Compensation::kUnknown;
-  double residual_m = 0.0;  ///< mean over the scans of Health::residual_m
+  double residual_m = 0.0;  ///< mean over the scans of TrackingStatus::residual_m
 };
 
 struct CompensationMeasurement {
@@ -33,9 +33,9 @@ struct CompensationMeasurement {
 /// `sweep` are tried. Tells nothing where the sensor hardly moves.
 CompensationMeasurement measure_compensation(const std::vector<std::vector<std::size_t>>& windows,
                                              const std::function<Scan(std::size_t)>& read, bool times_given,
-                                             const OdometryOptions& options = {}, const SweepModel& sweep = {});
+                                             const OdometryOptions& options = {}, const cloud::SweepModel& sweep = {});
 
 /// "motion-compensated", "raw, clockwise", ...
 const char* compensation_name(Compensation compensation);
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -10,7 +10,7 @@
 #include "loopmark/core/pose.hpp"
 #include "loopmark/search/voxel_table.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 
 /// The map point that is nearest to a query.
 struct MapMatch {
@@ -52,16 +52,16 @@ class LocalMap {
     std::array<Eigen::Vector3f, kMaxPoints> normal;
   };
 
-  Voxel voxel_at(const Eigen::Vector3d& point) const;
-  Eigen::Vector3d corner(const Voxel& voxel) const;
+  search::Voxel voxel_at(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d corner(const search::Voxel& voxel) const;
   bool add(Cell& cell, const Eigen::Vector3f& offset) const;
   void renew_normals(std::uint32_t cell);
 
   double voxel_m_;
   std::size_t capacity_;
   float spacing_squared_;
-  VoxelTable table_;
+  search::VoxelTable table_;
   std::vector<Cell> cells_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Odometry of one piece of a drive: each scan is aligned to a local map of the scans before it.
+/// Odometry of one segment of a drive: each scan is aligned to a local map of the scans before it.
 #pragma once
 
 #include <deque>
@@ -11,11 +11,11 @@
 #include "loopmark/cloud/deskew.hpp"
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/odometry/alignment.hpp"
-#include "loopmark/odometry/health.hpp"
 #include "loopmark/odometry/local_map.hpp"
 #include "loopmark/odometry/options.hpp"
+#include "loopmark/odometry/tracking_status.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 
 /// A scan with a pose, not yet part of the local map.
 struct TrackedScan {
@@ -24,7 +24,7 @@ struct TrackedScan {
   Pose T_map_lidar = Pose::Identity();         ///< at the scan's stamp
   Vector6d velocity = Vector6d::Zero();        ///< mean since the last scan, in the lidar's frame, a second
   Vector6d sweep_velocity = Vector6d::Zero();  ///< during the sweep: what the scan was deskewed with
-  Health health;
+  TrackingStatus tracking_status;
   PointCloud sample;  ///< its points, thinned, as seen (not deskewed), with times where known
 };
 
@@ -35,7 +35,7 @@ class Odometry {
   /// `compensation`: whether and how scans are deskewed; `sweep`: for logs without times (its direction is set
   /// from `compensation`).
   explicit Odometry(const OdometryOptions& options, Compensation compensation = Compensation::kUnknown,
-                    const SweepModel& sweep = {});
+                    const cloud::SweepModel& sweep = {});
 
   /// The pose of `scan` in the local map, predicted by the motion so far and aligned.
   TrackedScan track(const Scan& scan) const;
@@ -50,7 +50,7 @@ class Odometry {
   /// Takes the scan into the local map and the motion model.
   void commit(const TrackedScan& tracked);
 
-  /// Forgets map and motion: the next scan starts a new piece at `T_map_lidar`.
+  /// Forgets map and motion: the next scan starts a new segment at `T_map_lidar`.
   void restart(const Pose& T_map_lidar = Pose::Identity());
 
   /// The scan's points in range, deskewed to its stamp with the velocity found.
@@ -83,7 +83,7 @@ class Odometry {
   double gap_to(double stamp_s) const;
   Vector6d during_sweep(const TrackedScan& tracked) const;
   double threshold(double gap_s) const;
-  bool careful(double stamp_s) const;
+  bool initialising(double stamp_s) const;
   std::vector<Start> straight_starts(const TrackedScan& prepared) const;
   void judge(TrackedScan& tracked) const;
   void begin_map(const TrackedScan& first);
@@ -93,7 +93,7 @@ class Odometry {
 
   OdometryOptions options_;
   Compensation compensation_;
-  SweepModel sweep_;
+  cloud::SweepModel sweep_;
   std::optional<LocalMap> map_;
   std::optional<LocalMap> coarse_;  ///< the same in larger voxels, to search further
   Pose origin_ = Pose::Identity();
@@ -107,4 +107,4 @@ class Odometry {
 /// Voxel of the local map that suits a scene, metres: from how far away its surfaces are.
 double voxel_for_scene(const std::vector<Eigen::Vector3f>& points);
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

@@ -4,7 +4,7 @@
 
 #include "loopmark/core/options.hpp"
 
-namespace loopmark {
+namespace loopmark::odometry {
 
 /// What the scans of a log have gone through, as far as motion during the sweep is concerned.
 enum class Compensation {
@@ -54,4 +54,4 @@ void describe(Visitor& v, OdometryOptions& o) {
 /// Throws InputError naming the option whose value makes no sense.
 void check(const OdometryOptions& options);
 
-}  // namespace loopmark
+}  // namespace loopmark::odometry

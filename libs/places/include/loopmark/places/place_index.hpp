@@ -8,16 +8,16 @@
 #include <memory>
 #include <vector>
 
-#include "loopmark/places/place_signature.hpp"
+#include "loopmark/places/place_descriptor.hpp"
 
-namespace loopmark {
+namespace loopmark::places {
 
 struct PlaceMatch {
   std::size_t id = 0;     ///< as given to add()
-  double distance = 0.0;  ///< of the signatures
+  double distance = 0.0;  ///< of the descriptors
 };
 
-/// Exact up to a few thousand places; beyond that an inverted file: signatures projected to 64 numbers and sorted into
+/// Exact up to a few thousand places; beyond that an inverted file: descriptors projected to 64 numbers and sorted into
 /// cells around k-means centres, of which a query looks into the nearest, then compares the best candidates in full.
 /// The answers depend on the order of add() only.
 class PlaceIndex {
@@ -27,15 +27,15 @@ class PlaceIndex {
   PlaceIndex(PlaceIndex&&) noexcept;
   PlaceIndex& operator=(PlaceIndex&&) noexcept;
 
-  /// Throws std::invalid_argument when the signature's size differs from those before.
-  void add(std::size_t id, const PlaceSignature& signature);
+  /// Throws std::invalid_argument when the descriptor's size differs from those before.
+  void add(std::size_t id, const PlaceDescriptor& descriptor);
 
   /// The k most alike places, nearest first (equals by order of add). `accept` may leave places out: those just passed.
-  std::vector<PlaceMatch> query(const PlaceSignature& signature, std::size_t k,
+  std::vector<PlaceMatch> query(const PlaceDescriptor& descriptor, std::size_t k,
                                 const std::function<bool(std::size_t id)>& accept = {}) const;
 
   /// The same by comparing with every place.
-  std::vector<PlaceMatch> query_exactly(const PlaceSignature& signature, std::size_t k,
+  std::vector<PlaceMatch> query_exactly(const PlaceDescriptor& descriptor, std::size_t k,
                                         const std::function<bool(std::size_t id)>& accept = {}) const;
 
   std::size_t size() const;
@@ -45,4 +45,4 @@ class PlaceIndex {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::places

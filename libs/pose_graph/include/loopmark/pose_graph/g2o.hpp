@@ -7,7 +7,7 @@
 
 #include "loopmark/pose_graph/pose_graph.hpp"
 
-namespace loopmark {
+namespace loopmark::pose_graph {
 
 /// Writes the graph so that g2o's own tools solve the same problem: their error is [translation; vector part
 /// of the quaternion] on the right of the measurement, so information matrices are carried over by the
@@ -18,4 +18,4 @@ void write_g2o(const std::filesystem::path& path, const PoseGraph& graph);
 /// become indices in increasing order. Throws InputError with file, line and problem.
 PoseGraph read_g2o(const std::filesystem::path& path);
 
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph

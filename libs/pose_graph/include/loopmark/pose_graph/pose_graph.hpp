@@ -10,11 +10,11 @@
 #include "loopmark/core/pose.hpp"
 #include "loopmark/pose_graph/pose_graph_options.hpp"
 
-namespace loopmark {
+namespace loopmark::pose_graph {
 
 /// Where a constraint comes from decides whether it may be doubted.
 enum class EdgeKind {
-  kOdometry,  ///< trusted; odometry edges alone define the pieces of the graph
+  kOdometry,  ///< trusted; odometry edges alone define the segments of the graph
   kLoop,      ///< doubted: must agree with the others
   kForced     ///< a loop that somebody vouches for; trusted
 };
@@ -30,10 +30,10 @@ struct PoseGraphEdge {
   EdgeKind kind = EdgeKind::kOdometry;
 };
 
-/// Poses and constraints. Pieces (what odometry edges connect) need not share a frame at the start: they are
+/// Poses and constraints. Segments (what odometry edges connect) need not share a frame at the start: they are
 /// placed by the loops between them, and those that find no place stay where they are.
 struct PoseGraph {
-  std::vector<Pose> T_map_node;  ///< initial poses; right up to one rigid motion within each piece
+  std::vector<Pose> T_map_node;  ///< initial poses; right up to one rigid motion within each segment
   std::vector<PoseGraphEdge> edges;
   std::vector<std::size_t> anchors;  ///< nodes that do not move; empty: node 0
 };
@@ -43,7 +43,7 @@ enum class EdgeVerdict {
   kAccepted,      ///< it holds its share of the map
   kInconsistent,  ///< it contradicts the largest set of loops that agree with one another (PCM)
   kOutlier,       ///< the robust optimisation gave it weight zero (GNC)
-  kTooFewLinks    ///< the pieces it would join have fewer agreeing links than `min_links`
+  kTooFewLinks    ///< the segments it would join have fewer agreeing links than `min_links`
 };
 
 /// "accepted", "inconsistent", "outlier", "too few links".
@@ -55,7 +55,7 @@ struct EdgeReport {
   Vector6d residual = Vector6d::Zero();  ///< log(T_map_from^-1 * T_map_to * T_from_to^-1) at the solution
   double chi2 = 0.0;                     ///< residual^T * information * residual
   std::size_t agrees_with = 0;           ///< loops of its group that are pairwise consistent with it
-  std::size_t group_size = 0;            ///< loops between the same two pieces (or within the same piece)
+  std::size_t group_size = 0;            ///< loops between the same two segments (or within the same segment)
 };
 
 /// Nodes that accepted constraints connect, in increasing order. Poses of different components have nothing
@@ -80,7 +80,7 @@ struct PoseGraphSolution {
 };
 
 /// Solves the graph: pairwise consistency maximisation over the loops (Mangelson et al., ICRA 2018), placement
-/// of the pieces, then Levenberg-Marquardt under graduated non-convexity with truncated least squares on the
+/// of the segments, then Levenberg-Marquardt under graduated non-convexity with truncated least squares on the
 /// loops (Yang et al., RA-L 2020). One thread: the same bytes every time.
 /// Throws InputError naming the edge or node when an index, a pose or an information matrix makes no sense.
 PoseGraphSolution optimize(const PoseGraph& graph, const PoseGraphOptions& options = {});
@@ -95,4 +95,4 @@ std::vector<Matrix6d> marginal_covariances(const PoseGraph& graph, const PoseGra
 /// get an information near zero. Throws InputError when the covariance is not finite or not symmetric.
 Matrix6d information_from_covariance(const Matrix6d& covariance, double floor_m, double floor_deg);
 
-}  // namespace loopmark
+}  // namespace loopmark::pose_graph

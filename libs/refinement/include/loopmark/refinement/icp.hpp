@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "loopmark/core/pose.hpp"
-#include "loopmark/refinement/gauss_newton.hpp"
+#include "loopmark/least_squares/gauss_newton.hpp"
 #include "loopmark/refinement/icp_options.hpp"
 #include "loopmark/search/cell_grid.hpp"
 
-namespace loopmark {
+namespace loopmark::refinement {
 
 /// Points (metres) and their unit normals; normals are empty where the metric needs none.
 struct Surface {
@@ -26,13 +26,13 @@ class IcpTarget {
   /// Searches are fastest with the max_distance_m given here, and right with any other.
   IcpTarget(const Surface& surface, double max_distance_m);
 
-  const CellGrid& grid() const { return grid_; }
+  const search::CellGrid& grid() const { return grid_; }
   bool has_normals() const { return !normals_.empty(); }
   /// Normal of the point at a sorted place of the grid.
   const Eigen::Vector3f& normal(std::uint32_t place) const { return normals_[place]; }
 
  private:
-  CellGrid grid_;
+  search::CellGrid grid_;
   std::vector<Eigen::Vector3f> normals_;
 };
 
@@ -50,7 +50,7 @@ struct IcpResult {
   double rms_m = 0.0;                       ///< root-mean-square residual of the metric, metres
   Matrix6d information = Matrix6d::Zero();  ///< of xi in exp(xi) * T_target_source
   Matrix6d covariance = Matrix6d::Zero();   ///< its inverse; wide, not infinite, along free directions
-  Constraint constraint;                    ///< point-to-plane constraint where the target has normals
+  least_squares::Constraint constraint;     ///< point-to-plane constraint where the target has normals
   int weak_directions = 0;                  ///< directions weaker than the option weak_strength
 
   /// One line for logs.
@@ -62,4 +62,4 @@ struct IcpResult {
 /// Throws std::invalid_argument where the metric needs normals that are not there.
 IcpResult icp(const Surface& source, const IcpTarget& target, const Pose& initial, const IcpOptions& options = {});
 
-}  // namespace loopmark
+}  // namespace loopmark::refinement

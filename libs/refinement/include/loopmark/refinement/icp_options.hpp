@@ -5,9 +5,9 @@
 #include <cstddef>
 
 #include "loopmark/core/options.hpp"
-#include "loopmark/refinement/robust_kernel.hpp"
+#include "loopmark/least_squares/robust_kernel.hpp"
 
-namespace loopmark {
+namespace loopmark::refinement {
 
 /// What is minimised between paired points (paper, appendix "Local Registration").
 enum class IcpMetric {
@@ -27,7 +27,7 @@ enum class IcpPairing {
 struct IcpOptions {
   IcpMetric metric = IcpMetric::kPointToPoint;
   IcpPairing pairing = IcpPairing::kNearest;
-  RobustKernel kernel = RobustKernel::kNone;
+  least_squares::RobustKernel kernel = least_squares::RobustKernel::kNone;
   double kernel_scale_m = 0.2;
   double max_distance_m = 0.6;
   std::size_t max_iterations = 30;
@@ -49,12 +49,12 @@ void describe(Visitor& v, IcpOptions& o) {
   v.choice("pairing", o.pairing, {{"nearest", IcpPairing::kNearest}, {"best_buddies", IcpPairing::kBestBuddies}},
            "nearest target point, or mutual nearest neighbours only");
   v.choice("kernel", o.kernel,
-           {{"none", RobustKernel::kNone},
-            {"huber", RobustKernel::kHuber},
-            {"cauchy", RobustKernel::kCauchy},
-            {"geman_mcclure", RobustKernel::kGemanMcClure},
-            {"tukey", RobustKernel::kTukey},
-            {"truncated", RobustKernel::kTruncated}},
+           {{"none", least_squares::RobustKernel::kNone},
+            {"huber", least_squares::RobustKernel::kHuber},
+            {"cauchy", least_squares::RobustKernel::kCauchy},
+            {"geman_mcclure", least_squares::RobustKernel::kGemanMcClure},
+            {"tukey", least_squares::RobustKernel::kTukey},
+            {"truncated", least_squares::RobustKernel::kTruncated}},
            "robust kernel on the residuals");
   v.field("kernel_scale_m", o.kernel_scale_m, "scale of the robust kernel, metres");
   v.field("max_distance_m", o.max_distance_m, "pairs further apart are left out, metres");
@@ -72,4 +72,4 @@ inline void check(const IcpOptions& o) {
   require_option(o.noise_floor_m > 0, "noise_floor_m", "must be larger than 0");
 }
 
-}  // namespace loopmark
+}  // namespace loopmark::refinement

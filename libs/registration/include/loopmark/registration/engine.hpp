@@ -12,7 +12,7 @@
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/registration/engine_options.hpp"
 
-namespace loopmark {
+namespace loopmark::registration {
 
 /// All that registration needs of one scan, or of several joined into a submap: computed once, kept by
 /// keyframes, at most 1 MB. A cheap-to-copy immutable value.
@@ -40,7 +40,7 @@ using Evidence = std::vector<std::pair<std::string, double>>;
 struct RegistrationMode {
   Pose T_target_source = Pose::Identity();
   double p_correct = 0.0;
-  std::string origin;  ///< the hypothesis source: "birdseye", "features", "guess"
+  std::string origin;  ///< the hypothesis source: "bev", "features", "guess"
   Evidence evidence;
 };
 
@@ -73,4 +73,4 @@ RegistrationResult register_scans(const PreparedScan& source, const PreparedScan
 RegistrationResult verify_motion(const PreparedScan& source, const PreparedScan& target, const Pose& T_target_source,
                                  const EngineOptions& options);
 
-}  // namespace loopmark
+}  // namespace loopmark::registration

@@ -8,7 +8,7 @@
 
 #include "loopmark/core/pose.hpp"
 
-namespace loopmark {
+namespace loopmark::registration {
 
 /// The nearest and the farthest return in each direction, in bins of one degree of azimuth and elevation.
 class RangeImage {
@@ -28,11 +28,11 @@ class RangeImage {
   explicit RangeImage(std::vector<Cell> cells) : cells_(std::move(cells)) {}
 
   enum class Sight {
-    kUnknown,   ///< no beam went there
-    kHidden,    ///< behind what the beams met
-    kAgrees,    ///< where the beams met something
-    kConflict,  ///< where the beams passed through
-    kClash,     ///< the same, and so did all beams of the directions around it: no edge, no hole in a crown
+    kUnknown,             ///< no beam went there
+    kHidden,              ///< behind what the beams met
+    kAgrees,              ///< where the beams met something
+    kFreeSpaceViolation,  ///< where the beams passed through
+    kStrongViolation,     ///< the same, and so did all beams of the directions around it: no edge, no hole in a crown
   };
 
   /// How a point (sensor's frame) goes with what this scan saw. `margin_m` is the tolerance in range.
@@ -47,4 +47,4 @@ class RangeImage {
   std::vector<Cell> cells_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::registration

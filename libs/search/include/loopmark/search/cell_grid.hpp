@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace loopmark {
+namespace loopmark::search {
 
 /// Points sorted into cubic cells, for many searches within a known small distance (descriptors, ICP). Points of
 /// a cell, and cells that follow each other along x, lie side by side in memory, each coordinate for itself, so
@@ -116,4 +116,4 @@ class CellGrid {
   std::vector<std::int32_t> table_;  ///< open addressing: cell number or -1
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::search

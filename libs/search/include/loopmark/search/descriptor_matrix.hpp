@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 
-namespace loopmark {
+namespace loopmark::search {
 
 /// Descriptors of points, one row a point.
 using DescriptorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-}  // namespace loopmark
+}  // namespace loopmark::search

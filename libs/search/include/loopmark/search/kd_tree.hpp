@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-namespace loopmark {
+namespace loopmark::search {
 
 /// A point of the tree that answers a query.
 struct Neighbour {
@@ -42,4 +42,4 @@ class KdTree {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::search

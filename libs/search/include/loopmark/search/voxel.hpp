@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-namespace loopmark {
+namespace loopmark::search {
 
 /// A cell of a regular grid, by its integer coordinates.
 struct Voxel {
@@ -40,4 +40,4 @@ struct VoxelHash {
   std::size_t operator()(const Voxel& v) const { return static_cast<std::size_t>(voxel_hash(v)); }
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::search

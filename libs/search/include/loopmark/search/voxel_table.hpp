@@ -8,7 +8,7 @@
 
 #include "loopmark/search/voxel.hpp"
 
-namespace loopmark {
+namespace loopmark::search {
 
 /// Open-addressing table from voxel to a running number: 0 for the first voxel seen, 1 for the next.
 class VoxelTable {
@@ -64,4 +64,4 @@ class VoxelTable {
   std::vector<Voxel> voxels_;
 };
 
-}  // namespace loopmark
+}  // namespace loopmark::search

@@ -33,7 +33,7 @@ enum class Material : std::uint8_t {
   kCount
 };
 
-/// A material and how light this piece of it is: 0 the darkest, 255 the lightest of its kind.
+/// A material and how light this segment of it is: 0 the darkest, 255 the lightest of its kind.
 struct Surface {
   Material material = Material::kConcrete;
   std::uint8_t shade = 128;

@@ -44,7 +44,7 @@ struct SensorModel {
 std::vector<std::string> sensor_names();
 
 /// Throws InputError for an unknown name. Beam tables: the makers' manuals (HDL-64E S2/S3, HDL-32E, VLP-16; OS1 with
-/// even spacing of its 33.2 degrees, as its calibration differs from piece to piece).
+/// even spacing of its 33.2 degrees, as its calibration differs from segment to segment).
 SensorModel sensor_model(const std::string& name);
 
 /// Reflectance of a surface for a beam that meets it at the given cosine of incidence, mirror-like share included.

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: loopmark contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loopmark/workflows/map_run.hpp"
+
+#include <ctime>
+
+#include "loopmark/core/progress.hpp"
+#include "loopmark/io/drive_log.hpp"
+#include "loopmark/io/trajectory.hpp"
+#include "loopmark/map_export/products.hpp"
+#include "loopmark/mapping/engine_registrar.hpp"
+#include "map_feed.hpp"
+#include "map_manifest.hpp"
+
+namespace loopmark::workflows {
+namespace {
+
+void close_loops(mapping::Mapper& mapper, MapTimes& times) {
+  const Stopwatch watch;
+  LoopProgress progress;
+  mapper.close_loops([&](std::size_t done, std::size_t total) { progress.show(done, total); });
+  times.loops = watch.seconds();
+}
+
+std::vector<Pose> truth_of(const io::DriveLog& log, const std::filesystem::path& file) {
+  std::vector<Pose> truth = log.truth();
+  if (!file.empty()) {
+    truth = io::read_trajectory(file).poses;
+  }
+  if (!truth.empty() && truth.size() != log.size()) {
+    throw InputError(file.string(), "",
+                     std::to_string(truth.size()) + " poses for " + std::to_string(log.size()) + " scans",
+                     "the truth must have one pose for each scan");
+  }
+  return truth;
+}
+
+/// What a run is judged by stays with it, so that it can be judged again without the log.
+void keep_truth(const map_store::RunFolder& folder, const io::DriveLog& log, const std::vector<Pose>& truth) {
+  std::vector<double> stamps_s;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    stamps_s.push_back(log.stamp_s(i));
+  }
+  if (!truth.empty()) {
+    io::write_tum(truth_file(folder), stamps_s, truth);
+  }
+}
+
+MapOutcome map_into(map_store::RunFolder& folder, const MapJob& job, const ProgramOptions& options,
+                    const std::string& started) {
+  const Stopwatch whole;
+  MapOutcome outcome;
+  MapTimes& times = outcome.times;
+  const std::unique_ptr<io::DriveLog> log = io::open_log(job.log, options.log);
+  const std::vector<Pose> truth = truth_of(*log, job.truth);
+  keep_truth(folder, *log, truth);
+  const odometry::Compensation compensation = compensation_of(*log, options.slam);
+
+  internal::InputRecord inputs(folder, *log);
+  mapping::Mapper mapper(folder, {options.odometry, options.slam, options.pose_graph},
+                         mapping::engine_registrar(options.registration), compensation,
+                         log->info().sweep.value_or(cloud::SweepModel{}));
+  internal::feed(mapper, *log, inputs, times);
+  if (mapper.keyframes().empty()) {
+    throw InputError(job.log.string(), "", "no scan could be used");
+  }
+  close_loops(mapper, times);
+  Stopwatch part;
+  const mapping::SolvedMap map = mapper.solve();
+  times.solving = part.seconds();
+
+  part.reset();
+  write_maps(folder, mapper.scans(), mapper.loops(), map, options);
+  times.products = part.seconds();
+  outcome.summary = summarize(mapper.scans(), mapper.loops(), map, truth);
+  outcome.summary.compensation = compensation_text(compensation);
+  times.whole = whole.seconds();
+  write_map_report(folder, mapper.scans(), mapper.loops(), map, outcome.summary, times, truth);
+  write_summary(folder, outcome.summary, times);
+  map_export::write_manifest(folder, internal::manifest_of_map(job, started, times.whole, inputs.finish()));
+  folder.finish();
+  return outcome;
+}
+
+}  // namespace
+
+void LoopProgress::show(std::size_t done, std::size_t total) {
+  if (total_ != total) {
+    progress_ = std::make_unique<Progress>("loop candidates", total);
+    progress_->add(shown_);
+    total_ = total;
+  }
+  progress_->add(done - shown_, internal::memory_text());
+  shown_ = done;
+}
+
+void write_maps(const map_store::RunFolder& folder, const std::vector<map_store::ScanRecord>& scans,
+                const std::vector<map_store::LoopRecord>& loops, const mapping::SolvedMap& map,
+                const ProgramOptions& options) {
+  map_export::write_trajectory_products(folder, scans, loops, map);
+  map_export::write_occupancy(folder, map, options.occupancy);
+  map_export::write_clouds(folder, map, options.slam.cloud_voxel_m);
+  map_export::write_mrpt_products(folder, scans, loops, map);
+}
+
+MapOutcome run_map(map_store::RunFolder folder, const MapJob& job, const ProgramOptions& options) {
+  const Stopwatch whole;
+  const std::string started = utc_now();
+  try {
+    return map_into(folder, job, options, started);
+  } catch (const std::exception& problem) {
+    internal::leave_manifest(folder, internal::manifest_of_map(job, started, whole.seconds()), problem);
+    throw;
+  }
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+}  // namespace loopmark::workflows
