@@ -12,8 +12,8 @@ namespace {
 
 using testing_support::BoxWorld;
 
-odometry::LocalMap map_of(const BoxWorld& world) {
-  odometry::LocalMap map(1.0, 16);
+surfels::LocalMap map_of(const BoxWorld& world) {
+  surfels::LocalMap map(1.0, 16);
   for (double x = 40.0; x <= 80.0; x += 4.0) {
     const Pose pose = pose_from_yaw(0.0, {x, 0.0, 1.8});
     std::vector<Eigen::Vector3d> points;
@@ -27,7 +27,7 @@ odometry::LocalMap map_of(const BoxWorld& world) {
 
 TEST(SweepMotion, FindsPoseAndMotionOfOneDistortedSweep) {
   const BoxWorld world = testing_support::street(120.0, 6);
-  const odometry::LocalMap map = map_of(world);
+  const surfels::LocalMap map = map_of(world);
   const Vector6d velocity = (Vector6d() << 14.0, 0.0, 0.0, 0.0, 0.0, 0.3).finished();
   const Pose truth = pose_from_yaw(0.1, {60.0, 0.5, 1.8});
   const PointCloud seen = testing_support::sweep(world, truth, velocity, 0.01, 1);
@@ -54,7 +54,7 @@ TEST(SweepMotion, AStandingSensorDoesNotMove) {
 }
 
 TEST(SweepMotion, WhereTheMapIsEmptyThereIsNoAnswer) {
-  const odometry::LocalMap map(1.0, 16);
+  const surfels::LocalMap map(1.0, 16);
   EXPECT_FALSE(internal::align_sweep({{1.0F, 2.0F, 3.0F}}, {0.0F}, map, Pose::Identity()));
 }
 

@@ -65,8 +65,8 @@ struct Relocalizer::State {
   bool verification_pending = false;  ///< the sensor may have been carried off, until the whole map has been asked
   bool overtaken = false;             ///< another place fitted the scan better that was compared last
   std::optional<std::vector<LocalizationHypothesis>>
-      searched;                              ///< what the whole map said of this scan, if it was asked
-  std::optional<odometry::LocalMap> around;  ///< the map around the sensor
+      searched;                             ///< what the whole map said of this scan, if it was asked
+  std::optional<surfels::LocalMap> around;  ///< the map around the sensor
   Eigen::Vector3d around_at = Eigen::Vector3d::Zero();
 
   /// Pose and motion of a raw scan in the map, from a pose near; nothing where they cannot be told.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "loopmark/odometry/local_map.hpp"
+#include "loopmark/surfels/local_map.hpp"
 
 namespace loopmark::localization::internal {
 
@@ -20,6 +20,6 @@ struct SweepInMap {
 /// q_i = T * exp(t_i v) * p_i, in 12 unknowns. `times`: of the points relative to the stamp, seconds.
 /// Nothing when it ends farther than 3 m or 10 deg from `start`, or with a motion no vehicle makes.
 std::optional<SweepInMap> align_sweep(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& times,
-                                      const odometry::LocalMap& map, const Pose& start);
+                                      const surfels::LocalMap& map, const Pose& start);
 
 }  // namespace loopmark::localization::internal

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/odometry/alignment.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "loopmark/core/parallel.hpp"
+#include "loopmark/least_squares/factors.hpp"
+#include "loopmark/least_squares/robust_kernel.hpp"
 
 namespace loopmark::odometry {
 namespace {
@@ -16,11 +17,10 @@ constexpr std::size_t kBlock = 512;     // keypoints of one partial sum
 constexpr double kNoPlaneWeight = 0.2;  // of a match whose surface is no plane
 constexpr double kInlierVoxels = 0.2;   // an inlier is nearer to its surface than this many voxels
 constexpr double kConverged = 1e-4;     // step, metres and radians
+constexpr std::size_t kFewestInliers = 6;
 
 /// Sums over the keypoints. The tangent is [translation; rotation about the sensor], both along the map's axes.
-struct NormalEquations {
-  Matrix6d H = Matrix6d::Zero();
-  Vector6d b = Vector6d::Zero();
+struct MatchEquations : least_squares::NormalEquations<6> {
   Matrix6d H_planes = Matrix6d::Zero();  // inliers on planes only, weight 1: what really holds the scan
   double squares = 0.0;                  // of the inliers' distances
   std::size_t inliers = 0;
@@ -28,9 +28,8 @@ struct NormalEquations {
   std::size_t left_out = 0;  // ground that says nothing
   std::size_t structure_inliers = 0;
 
-  NormalEquations& operator+=(const NormalEquations& other) {
-    H += other.H;
-    b += other.b;
+  MatchEquations& operator+=(const MatchEquations& other) {
+    NormalEquations<6>::operator+=(other);
     H_planes += other.H_planes;
     squares += other.squares;
     inliers += other.inliers;
@@ -48,7 +47,7 @@ struct Kernel {
 };
 
 /// Ground counts across its plane only: along it lie the rings of the sensor, which go where the sensor goes.
-void add_match(NormalEquations& sums, const Eigen::Vector3d& lever, const Eigen::Vector3d& error,
+void add_match(MatchEquations& sums, const Eigen::Vector3d& lever, const Eigen::Vector3d& error,
                const Eigen::Vector3d& normal, const Kernel& kernel, bool ground) {
   const bool plane = !normal.isZero(0.0);
   if (ground && !plane) {
@@ -57,18 +56,16 @@ void add_match(NormalEquations& sums, const Eigen::Vector3d& lever, const Eigen:
   }
   ++sums.matches;
   const double across = plane ? normal.dot(error) : error.norm();
-  const double share = kernel.scale_m / (kernel.scale_m + across * across / kernel.scale_m);
-  const double robust = share * share;  // Geman-McClure
-  Eigen::Matrix<double, 3, 6> J;
-  J << Eigen::Matrix3d::Identity(), -hat(lever);
-  const double along_weight = ground ? 0.0 : robust * (plane ? kernel.point_weight : kNoPlaneWeight);
-  sums.H.noalias() += along_weight * J.transpose() * J;
-  sums.b.noalias() += along_weight * J.transpose() * error;
+  const double robust =
+      least_squares::robust_weight(least_squares::RobustKernel::kGemanMcClure, across * across, kernel.scale_m);
+  if (!ground) {
+    least_squares::add_point_to_point(sums, lever, error, robust * (plane ? kernel.point_weight : kNoPlaneWeight));
+  }
   const bool inlier = std::abs(across) < kernel.inlier_m;
   if (plane) {
-    const Vector6d j = J.transpose() * normal;
-    sums.H.noalias() += robust * (1.0 - kernel.point_weight) * j * j.transpose();
-    sums.b.noalias() += robust * (1.0 - kernel.point_weight) * across * j;
+    Vector6d j;
+    j << normal, lever.cross(normal);
+    sums.add_row(j, across, robust * (1.0 - kernel.point_weight));
     if (inlier) {
       sums.H_planes.noalias() += j * j.transpose();
     }
@@ -80,34 +77,27 @@ void add_match(NormalEquations& sums, const Eigen::Vector3d& lever, const Eigen:
   }
 }
 
-NormalEquations linearize(const Keypoints& keypoints, const LocalMap& map, const Pose& T, double threshold_m,
-                          const Kernel& kernel) {
-  const auto map_block = [&](std::size_t begin, std::size_t end) {
-    NormalEquations sums;
-    MapMatch match;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d lever = T.linear() * keypoints.points[i].cast<double>();
-      const Eigen::Vector3d point = lever + T.translation();
-      if (map.nearest(point, threshold_m, match)) {
-        add_match(sums, lever, point - match.point, match.normal, kernel, keypoints.is_ground(i));
-      }
-    }
-    return sums;
-  };
-  return parallel_reduce_ordered(keypoints.points.size(), kBlock, NormalEquations{}, map_block,
-                                 [](NormalEquations& total, const NormalEquations& part) { total += part; });
+MatchEquations linearize(const Keypoints& keypoints, const surfels::LocalMap& map, const Pose& T, double threshold_m,
+                         const Kernel& kernel) {
+  return least_squares::sum_in_blocks<MatchEquations>(
+      keypoints.points.size(), kBlock, [&](std::size_t i, MatchEquations& sums) {
+        surfels::MapMatch match;
+        const Eigen::Vector3d lever = T.linear() * keypoints.points[i].cast<double>();
+        const Eigen::Vector3d point = lever + T.translation();
+        if (map.nearest(point, threshold_m, match)) {
+          add_match(sums, lever, point - match.point, match.normal, kernel, keypoints.is_ground(i));
+        }
+      });
 }
 
 /// Where nothing holds the motion, the start does.
-void add_position_prior(NormalEquations& sums, const Pose& T, const Pose& T_start) {
+void add_position_prior(MatchEquations& sums, const Pose& T, const Pose& T_start) {
   constexpr double kShare = 1e-4;   // of the weight of the matches
   constexpr double kLeverM = 10.0;  // a rotation counts as what it moves at this range
   const double weight = kShare * static_cast<double>(sums.matches);
-  sums.H.diagonal().head<3>().array() += weight;
-  sums.b.head<3>() += weight * (T.translation() - T_start.translation());
+  least_squares::add_prior(sums, 0, (T.translation() - T_start.translation()).eval(), weight);
   const Eigen::AngleAxisd turned(T.linear() * T_start.linear().transpose());
-  sums.H.diagonal().tail<3>().array() += weight * kLeverM * kLeverM;
-  sums.b.tail<3>() += weight * kLeverM * kLeverM * turned.angle() * turned.axis();
+  least_squares::add_prior(sums, 3, (turned.angle() * turned.axis()).eval(), weight * kLeverM * kLeverM);
 }
 
 void step(Pose& T, const Vector6d& xi) {
@@ -150,8 +140,7 @@ Matrix6d pose_covariance(const Matrix6d& H, double residual_m, const Pose& T, do
   return 0.5 * (covariance + covariance.transpose());
 }
 
-TrackingStatus judge(const NormalEquations& sums, std::size_t keypoints, const Pose& T,
-                     const OdometryOptions& options) {
+TrackingStatus judge(const MatchEquations& sums, std::size_t keypoints, const Pose& T, const OdometryOptions& options) {
   TrackingStatus tracking_status;
   tracking_status.keypoints = keypoints;
   tracking_status.inlier_share =
@@ -167,7 +156,7 @@ TrackingStatus judge(const NormalEquations& sums, std::size_t keypoints, const P
   return tracking_status;
 }
 
-void count_structure(const NormalEquations& sums, const Keypoints& keypoints, TrackingStatus& tracking_status) {
+void count_structure(const MatchEquations& sums, const Keypoints& keypoints, TrackingStatus& tracking_status) {
   if (keypoints.ground.empty()) {
     return;
   }
@@ -180,30 +169,28 @@ void count_structure(const NormalEquations& sums, const Keypoints& keypoints, Tr
 
 }  // namespace
 
-Alignment align(const Keypoints& keypoints, const LocalMap& map, const Pose& T_map_lidar, double threshold_m,
+Alignment align(const Keypoints& keypoints, const surfels::LocalMap& map, const Pose& T_map_lidar, double threshold_m,
                 const OdometryOptions& options) {
   Alignment result{T_map_lidar, {}};
   const double inlier_m = kInlierVoxels * map.voxel_m();
   const Kernel kernel{std::max(threshold_m / 3.0, inlier_m), inlier_m, options.point_weight};
-  NormalEquations sums;
-  std::size_t iteration = 0;
-  bool converged = false;
-  for (; iteration < options.max_iterations && !converged; ++iteration) {
+  MatchEquations sums;
+  const auto step_at = [&](std::size_t) -> std::optional<Vector6d> {
     sums = linearize(keypoints, map, result.T_map_lidar, threshold_m, kernel);
-    if (sums.inliers < 6) {
-      break;
+    if (sums.inliers < kFewestInliers) {
+      return std::nullopt;
     }
     if (!keypoints.ground.empty()) {
       add_position_prior(sums, result.T_map_lidar, T_map_lidar);
     }
-    const Vector6d xi = -sums.H.ldlt().solve(sums.b);
-    step(result.T_map_lidar, xi);
-    converged = xi.norm() < kConverged;
-  }
+    return sums.step();
+  };
+  const least_squares::Convergence convergence = least_squares::gauss_newton(
+      {options.max_iterations, kConverged}, step_at, [&](const Vector6d& xi) { step(result.T_map_lidar, xi); });
   result.tracking_status = judge(sums, keypoints.points.size() - sums.left_out, result.T_map_lidar, options);
   count_structure(sums, keypoints, result.tracking_status);
-  result.tracking_status.iterations = iteration;
-  result.tracking_status.converged = converged;
+  result.tracking_status.iterations = convergence.iterations;
+  result.tracking_status.converged = convergence.converged;
   return result;
 }
 

@@ -90,7 +90,8 @@ void Odometry::align_from(TrackedScan& tracked, const Start& start, double thres
   align_to(*map_, tracked, start, threshold_m);
 }
 
-void Odometry::align_to(const LocalMap& map, TrackedScan& tracked, const Start& start, double threshold_m) const {
+void Odometry::align_to(const surfels::LocalMap& map, TrackedScan& tracked, const Start& start,
+                        double threshold_m) const {
   tracked.T_map_lidar = start.T_map_lidar;
   tracked.velocity = start.velocity;
   tracked.sweep_velocity = start.velocity;
@@ -186,7 +187,7 @@ TrackedScan Odometry::best_of_wide(const TrackedScan& prepared, const TrackedSca
 void Odometry::align_to_deskewed_first(TrackedScan& answer) const {
   TrackedScan first = *last_;
   first.sweep_velocity = answer.velocity;
-  LocalMap map(map_->voxel_m(), options_.points_per_voxel);
+  surfels::LocalMap map(map_->voxel_m(), options_.points_per_voxel);
   map.insert(in_map(first));
   align_to(map, answer, {answer.T_map_lidar, answer.velocity}, map.voxel_m());
 }

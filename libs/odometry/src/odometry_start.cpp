@@ -36,10 +36,10 @@ PointCloud structure(const PointCloud& cloud) {
 }
 
 /// How well points lie on the map: 1 for each that does, less with distance.
-double fit(const LocalMap& map, const std::vector<Eigen::Vector3d>& points) {
+double fit(const surfels::LocalMap& map, const std::vector<Eigen::Vector3d>& points) {
   const double reach_m = 0.5 * map.voxel_m();
   double sum = 0.0;
-  MapMatch match;
+  surfels::MapMatch match;
   for (const Eigen::Vector3d& point : points) {
     if (map.nearest(point, reach_m, match)) {
       sum += 1.0 - match.distance_m * match.distance_m / (reach_m * reach_m);
@@ -85,7 +85,7 @@ std::vector<Odometry::Start> Odometry::straight_starts(const TrackedScan& prepar
     TrackedScan now = second;
     before.sweep_velocity = now.sweep_velocity = tried[i].velocity;
     now.T_map_lidar = tried[i].T_map_lidar;
-    LocalMap map(map_->voxel_m(), options_.points_per_voxel);
+    surfels::LocalMap map(map_->voxel_m(), options_.points_per_voxel);
     map.insert(in_map(before));
     order[i] = {-fit(map, in_map(now)), i};
   });

@@ -79,8 +79,8 @@ void Odometry::set_state(const std::string& bytes) {
     last.tracking_status.degenerate_directions = read_directions(reader);
     last.sample.points = reader.points();
     last.sample.time_offset_s = reader.vector<float>();
-    map_ = LocalMap::from_bytes(reader.text());
-    coarse_ = LocalMap::from_bytes(reader.text());
+    map_ = surfels::LocalMap::from_bytes(reader.text());
+    coarse_ = surfels::LocalMap::from_bytes(reader.text());
   }
 }
 

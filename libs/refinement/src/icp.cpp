@@ -44,7 +44,7 @@ bool is_small(const Vector6d& xi, const IcpOptions& options) {
 void judge(const Surface& source, const IcpTarget& target, const IcpOptions& options, const Eigen::Vector3d& centre,
            IcpResult& result, internal::Pairs& pairs) {
   internal::find_pairs(source, target, result.T_target_source, options, pairs);
-  const least_squares::NormalEquations sums =
+  const least_squares::PairEquations sums =
       internal::linearise(source, target, result.T_target_source, centre, options.metric, options, pairs);
   result.inliers = sums.pairs;
   result.inlier_share =
@@ -114,7 +114,7 @@ IcpResult icp(const Surface& source, const IcpTarget& target, const Pose& initia
   internal::Pairs pairs;
   while (result.iterations < options.max_iterations) {
     internal::find_pairs(source, target, result.T_target_source, options, pairs);
-    const least_squares::NormalEquations sums =
+    const least_squares::PairEquations sums =
         internal::linearise(source, target, result.T_target_source, centre, options.metric, options, pairs);
     if (sums.pairs < std::max<std::size_t>(3, options.min_pairs)) {
       result.stop = IcpStop::kTooFewPairs;

@@ -77,14 +77,14 @@ void find_pairs(const Surface& source, const IcpTarget& target, const Pose& T_ta
   }
 }
 
-least_squares::NormalEquations linearise(const Surface& source, const IcpTarget& target, const Pose& T_target_source,
-                                         const Eigen::Vector3d& centre, IcpMetric metric, const IcpOptions& options,
-                                         const Pairs& pairs) {
+least_squares::PairEquations linearise(const Surface& source, const IcpTarget& target, const Pose& T_target_source,
+                                       const Eigen::Vector3d& centre, IcpMetric metric, const IcpOptions& options,
+                                       const Pairs& pairs) {
   const Eigen::Matrix3d R = T_target_source.linear();
   const auto weigh = [&](double r2) {
     return least_squares::robust_weight(options.kernel, r2, options.kernel_scale_m);
   };
-  const auto add = [&](least_squares::NormalEquations& sums, std::size_t i) {
+  const auto add = [&](least_squares::PairEquations& sums, std::size_t i) {
     const Eigen::Vector3d moved = T_target_source * source.points[i].cast<double>() - centre;
     const Eigen::Vector3d found = target.grid().point(pairs.place[i]).cast<double>() - centre;
     const Eigen::Vector3d residual = moved - found;
@@ -113,18 +113,12 @@ least_squares::NormalEquations linearise(const Surface& source, const IcpTarget&
     const Eigen::Matrix3d information = plane_to_plane(normal, own);
     sums.add_general(moved, residual, information, weigh(residual.dot(information * residual)));
   };
-  return parallel_reduce_ordered(
-      pairs.place.size(), kBlock, least_squares::NormalEquations{},
-      [&](std::size_t begin, std::size_t end) {
-        least_squares::NormalEquations sums;
-        for (std::size_t i = begin; i < end; ++i) {
-          if (pairs.place[i] != kUnpaired) {
-            add(sums, i);
-          }
+  return least_squares::sum_in_blocks<least_squares::PairEquations>(
+      pairs.place.size(), kBlock, [&](std::size_t i, least_squares::PairEquations& sums) {
+        if (pairs.place[i] != kUnpaired) {
+          add(sums, i);
         }
-        return sums;
-      },
-      [](least_squares::NormalEquations& total, const least_squares::NormalEquations& part) { total += part; });
+      });
 }
 
 }  // namespace loopmark::refinement::internal

@@ -22,8 +22,8 @@ void find_pairs(const Surface& source, const IcpTarget& target, const Pose& T_ta
                 Pairs& pairs);
 
 /// Sums of the metric over the pairs, about `centre`, in a fixed order.
-least_squares::NormalEquations linearise(const Surface& source, const IcpTarget& target, const Pose& T_target_source,
-                                         const Eigen::Vector3d& centre, IcpMetric metric, const IcpOptions& options,
-                                         const Pairs& pairs);
+least_squares::PairEquations linearise(const Surface& source, const IcpTarget& target, const Pose& T_target_source,
+                                       const Eigen::Vector3d& centre, IcpMetric metric, const IcpOptions& options,
+                                       const Pairs& pairs);
 
 }  // namespace loopmark::refinement::internal

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "alignment.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "loopmark/core/parallel.hpp"
+#include "loopmark/least_squares/factors.hpp"
+#include "loopmark/least_squares/robust_kernel.hpp"
 
 namespace loopmark::registration::internal {
 namespace {
@@ -14,17 +15,17 @@ namespace {
 constexpr double kAcross = 0.05;     // weight of the residual inside a plane
 constexpr double kUpright = 0.1;     // of that, what counts along the vertical
 constexpr double kConverged = 1e-4;  // metres and radians
+constexpr double kDamping = 1e-3;
+constexpr std::size_t kFewest = 20;   // surfels with a partner
+constexpr std::size_t kBlock = 2048;  // surfels of one partial sum
 
-struct NormalEquations {
-  Matrix6d h = Matrix6d::Zero();
-  Vector6d g = Vector6d::Zero();
+struct SurfelEquations : least_squares::NormalEquations<6> {
   double squares = 0.0;
   double weights = 0.0;
   std::size_t used = 0;
 
-  NormalEquations& operator+=(const NormalEquations& other) {
-    h += other.h;
-    g += other.g;
+  SurfelEquations& operator+=(const SurfelEquations& other) {
+    NormalEquations<6>::operator+=(other);
     squares += other.squares;
     weights += other.weights;
     used += other.used;
@@ -33,70 +34,44 @@ struct NormalEquations {
 };
 
 /// Adds one pair: p of the source (moved), q of the target, and the one of both that is the surface, with its normal in
-/// the target's frame. r = q - p, weight matrix W = a diag(1, 1, u) + (1 - a) planarity n n^T, Jacobian [-I, hat(p)].
-void add_term(NormalEquations& sum, const Eigen::Vector3f& p, const Eigen::Vector3f& q, const surfels::Surfel& surface,
+/// the target's frame. Weight matrix W = a diag(1, 1, u) + (1 - a) planarity n n^T.
+void add_pair(SurfelEquations& sum, const Eigen::Vector3f& p, const Eigen::Vector3f& q, const surfels::Surfel& surface,
               const Eigen::Vector3f& normal, double scale_m) {
   const Eigen::Vector3d point = p.cast<double>();
   const Eigen::Vector3d n = normal.cast<double>();
-  const Eigen::Vector3d r = q.cast<double>() - point;
+  const Eigen::Vector3d residual = point - q.cast<double>();
   const double blob = 1.0 - surface.planarity;
   // Ground would only brake: the nearest surfel of a plane is near wherever one stands.
   const double across = surface.height < kGroundHeight ? 0.0 : kAcross + (1.0 - kAcross) * blob * blob * 0.5;
   // A lone ring on a wall is a line: its normal is anyone's guess, and its height is the sensor's, not the wall's.
   const Eigen::Matrix3d w = across * Eigen::Vector3d(1.0, 1.0, kUpright).asDiagonal().toDenseMatrix() +
                             (1.0 - across) * static_cast<double>(surface.planarity) * n * n.transpose();
-  const Eigen::Vector3d wr = w * r;
-  const double squared = r.dot(wr);
-  const double ratio = 1.0 / (1.0 + squared / (scale_m * scale_m));
-  const double robust = ratio * ratio;
-  const Eigen::Matrix3d k = hat(point);
-  const Eigen::Matrix3d wk = w * k;
-  sum.h.topLeftCorner<3, 3>() += robust * w;
-  sum.h.topRightCorner<3, 3>() -= robust * wk;
-  sum.h.bottomRightCorner<3, 3>() -= robust * k * wk;
-  sum.g.head<3>() += robust * wr;
-  sum.g.tail<3>() += robust * point.cross(wr);
+  const double squared = residual.dot(w * residual);
+  const double robust = least_squares::robust_weight(least_squares::RobustKernel::kGemanMcClure, squared, scale_m);
+  least_squares::add_generalized(sum, point, residual, w, robust);
   sum.squares += robust * squared;
   sum.weights += robust;
   ++sum.used;
 }
 
-/// The terms of surfels 0 to `count` - 1, summed block by block: the same at any thread count. `add` adds those of one.
-template <class Add>
-NormalEquations sum_of_terms(std::size_t count, const Add& add) {
-  constexpr std::size_t kBlock = 2048;
-  const auto of_block = [&](std::size_t begin, std::size_t end) {
-    NormalEquations sum;
-    for (std::size_t i = begin; i < end; ++i) {
-      add(i, sum);
-    }
-    return sum;
-  };
-  NormalEquations all =
-      parallel_reduce_ordered(count, kBlock, NormalEquations{}, of_block,
-                              [](NormalEquations& total, const NormalEquations& part) { total += part; });
-  all.h.bottomLeftCorner<3, 3>() = all.h.topRightCorner<3, 3>().transpose();
-  return all;
-}
-
 /// Of the source's surfels that have a partner within reach in the target.
-NormalEquations equations(const std::vector<surfels::Surfel>& source, const surfels::SurfelMap& target,
+SurfelEquations equations(const std::vector<surfels::Surfel>& source, const surfels::SurfelMap& target,
                           const Eigen::Isometry3f& T, float reach_m, double scale_m) {
-  return sum_of_terms(source.size(), [&](std::size_t i, NormalEquations& sum) {
+  return least_squares::sum_in_blocks<SurfelEquations>(source.size(), kBlock, [&](std::size_t i, SurfelEquations& sum) {
     const Eigen::Vector3f p = T * source[i].mean;
     if (const surfels::Surfel* partner = target.nearest(p, reach_m)) {
-      add_term(sum, p, partner->mean, *partner, partner->normal, scale_m);
+      add_pair(sum, p, partner->mean, *partner, partner->normal, scale_m);
     }
   });
 }
 
 /// Of the target's surfels that have a partner within reach in the source.
-NormalEquations equations_back(const surfels::SurfelMap& source, const std::vector<surfels::Surfel>& target,
+SurfelEquations equations_back(const surfels::SurfelMap& source, const std::vector<surfels::Surfel>& target,
                                const Eigen::Isometry3f& T, float reach_m, double scale_m) {
   const Eigen::Isometry3f back = T.inverse();
-  return sum_of_terms(target.size(), [&](std::size_t i, NormalEquations& sum) {
+  return least_squares::sum_in_blocks<SurfelEquations>(target.size(), kBlock, [&](std::size_t i, SurfelEquations& sum) {
     if (const surfels::Surfel* partner = source.nearest(back * target[i].mean, reach_m)) {
-      add_term(sum, T * partner->mean, target[i].mean, *partner, T.linear() * partner->normal, scale_m);
+      add_pair(sum, T * partner->mean, target[i].mean, *partner, T.linear() * partner->normal, scale_m);
     }
   });
 }
@@ -105,21 +80,16 @@ template <class Equations>
 Alignment solve(const Equations& equations_at, const Pose& start, int iterations) {
   Alignment result;
   result.T_target_source = start;
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    const NormalEquations sum = equations_at(result.T_target_source.cast<float>());
+  const auto step_at = [&](std::size_t) -> std::optional<Vector6d> {
+    const SurfelEquations sum = equations_at(result.T_target_source.cast<float>());
     result.used = sum.used;
-    result.information = sum.h;
+    result.information = sum.hessian;
     result.residual_m = sum.weights > 0.0 ? std::sqrt(sum.squares / sum.weights) : 0.0;
-    if (sum.used < 20) {
-      break;
-    }
-    const Matrix6d damped = sum.h + 1e-3 * Matrix6d::Identity();
-    const Vector6d step = damped.ldlt().solve(sum.g);
+    return sum.used < kFewest ? std::nullopt : std::optional(sum.step(kDamping));
+  };
+  least_squares::gauss_newton({static_cast<std::size_t>(iterations), kConverged}, step_at, [&](const Vector6d& step) {
     result.T_target_source = exp_se3(step) * result.T_target_source;
-    if (step.norm() < kConverged) {
-      break;
-    }
-  }
+  });
   return result;
 }
 
@@ -135,7 +105,7 @@ Alignment align_both_ways(const surfels::SurfelMap& source, const surfels::Surfe
                           float reach_m, double scale_m, int iterations) {
   return solve(
       [&](const Eigen::Isometry3f& T) {
-        NormalEquations sum = equations(source.surfels(), target, T, reach_m, scale_m);
+        SurfelEquations sum = equations(source.surfels(), target, T, reach_m, scale_m);
         sum += equations_back(source, target.surfels(), T, reach_m, scale_m);
         return sum;
       },

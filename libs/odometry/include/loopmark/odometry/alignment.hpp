@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "loopmark/odometry/local_map.hpp"
 #include "loopmark/odometry/options.hpp"
 #include "loopmark/odometry/tracking_status.hpp"
+#include "loopmark/surfels/local_map.hpp"
 
 namespace loopmark::odometry {
 
@@ -28,12 +28,12 @@ struct Alignment {
 /// across the map's planes, with a small weight along them, so that points without a plane count too. Ground counts
 /// across its planes only, as the rings in which a sensor sees it move along with the sensor; where nothing else holds
 /// the translation, it stays where it starts. `threshold_m`: largest distance of a match.
-Alignment align(const Keypoints& keypoints, const LocalMap& map, const Pose& T_map_lidar, double threshold_m,
+Alignment align(const Keypoints& keypoints, const surfels::LocalMap& map, const Pose& T_map_lidar, double threshold_m,
                 const OdometryOptions& options);
 
 /// The same where nobody knows what is ground.
-inline Alignment align(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const Pose& T_map_lidar,
-                       double threshold_m, const OdometryOptions& options) {
+inline Alignment align(const std::vector<Eigen::Vector3f>& points, const surfels::LocalMap& map,
+                       const Pose& T_map_lidar, double threshold_m, const OdometryOptions& options) {
   return align(Keypoints{points}, map, T_map_lidar, threshold_m, options);
 }
 

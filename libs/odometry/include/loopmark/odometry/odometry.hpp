@@ -11,9 +11,9 @@
 #include "loopmark/cloud/deskew.hpp"
 #include "loopmark/core/point_cloud.hpp"
 #include "loopmark/odometry/alignment.hpp"
-#include "loopmark/odometry/local_map.hpp"
 #include "loopmark/odometry/options.hpp"
 #include "loopmark/odometry/tracking_status.hpp"
+#include "loopmark/surfels/local_map.hpp"
 
 namespace loopmark::odometry {
 
@@ -62,7 +62,7 @@ class Odometry {
   void set_state(const std::string& bytes);
 
   bool deskews() const;
-  const std::optional<LocalMap>& map() const { return map_; }
+  const std::optional<surfels::LocalMap>& map() const { return map_; }
 
  private:
   struct Start;
@@ -75,7 +75,7 @@ class Odometry {
   std::vector<Start> shortlist(const TrackedScan& prepared, const std::vector<Start>& starts) const;
   Keypoints keypoints(const TrackedScan& tracked, double cell_m) const;
   void align_from(TrackedScan& tracked, const Start& start, double threshold_m) const;
-  void align_to(const LocalMap& map, TrackedScan& tracked, const Start& start, double threshold_m) const;
+  void align_to(const surfels::LocalMap& map, TrackedScan& tracked, const Start& start, double threshold_m) const;
   void align_to_deskewed_first(TrackedScan& answer) const;
   std::vector<float> times(const PointCloud& cloud) const;
   std::vector<Eigen::Vector3f> deskewed_sample(const TrackedScan& tracked) const;
@@ -94,8 +94,8 @@ class Odometry {
   OdometryOptions options_;
   Compensation compensation_;
   cloud::SweepModel sweep_;
-  std::optional<LocalMap> map_;
-  std::optional<LocalMap> coarse_;  ///< the same in larger voxels, to search further
+  std::optional<surfels::LocalMap> map_;
+  std::optional<surfels::LocalMap> coarse_;  ///< the same in larger voxels, to search further
   Pose origin_ = Pose::Identity();
   std::optional<TrackedScan> last_;
   double last_gap_s_ = 0.1;  ///< between the last two scans

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "loopmark/core/pose.hpp"
-#include "loopmark/least_squares/gauss_newton.hpp"
+#include "loopmark/least_squares/pair_equations.hpp"
 #include "loopmark/refinement/icp_options.hpp"
 #include "loopmark/search/cell_grid.hpp"
 

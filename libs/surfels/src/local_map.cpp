@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loopmark/odometry/local_map.hpp"
+#include "loopmark/surfels/local_map.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/storage/byte_stream.hpp"
 
-namespace loopmark::odometry {
+namespace loopmark::surfels {
 namespace {
 
 /// Normal of the points around one, zero where they form no plane.
@@ -212,4 +212,4 @@ LocalMap LocalMap::from_bytes(const std::string& bytes) {
   return map;
 }
 
-}  // namespace loopmark::odometry
+}  // namespace loopmark::surfels

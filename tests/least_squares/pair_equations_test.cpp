@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loopmark/least_squares/gauss_newton.hpp"
+#include "loopmark/least_squares/pair_equations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,11 +35,11 @@ TEST(GaussNewton, GradientsAgreeWithFiniteDifferences) {
     const Eigen::Vector3d q = random_vector(rng, 5.0);
     const Eigen::Vector3d n = random_vector(rng, 1.0).normalized();
     const Eigen::Matrix3d information = (Eigen::Matrix3d() << 2, 0.3, 0, 0.3, 1, 0.2, 0, 0.2, 3).finished();
-    NormalEquations point, plane, general;
+    PairEquations point, plane, general;
     point.add_point(p, p - q, 0.7);
     plane.add_plane(p, n, n.dot(p - q), 0.7);
     general.add_general(p, p - q, information, 0.7);
-    const auto near = [&](const NormalEquations& sums, const auto& cost) {
+    const auto near = [&](const PairEquations& sums, const auto& cost) {
       EXPECT_LT((sums.gradient - numeric_gradient(cost)).norm(), 1e-4 * (1 + sums.gradient.norm()));
       EXPECT_NEAR(sums.cost, cost(Pose::Identity()), 1e-9);
       EXPECT_LT((sums.hessian - sums.hessian.transpose()).norm(), 1e-12);
@@ -52,7 +52,7 @@ TEST(GaussNewton, GradientsAgreeWithFiniteDifferences) {
 
 TEST(GaussNewton, PointPairsWithIdentityInformationAreGeneralPairs) {
   Rng rng(2);
-  NormalEquations point, general;
+  PairEquations point, general;
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector3d p = random_vector(rng, 3.0);
     const Eigen::Vector3d e = random_vector(rng, 0.1);
@@ -65,7 +65,7 @@ TEST(GaussNewton, PointPairsWithIdentityInformationAreGeneralPairs) {
 
 TEST(GaussNewton, DoesNotMoveAlongFreeDirections) {
   Rng rng(3);
-  NormalEquations sums;  // two walls along x and the ground: x is free
+  PairEquations sums;  // two walls along x and the ground: x is free
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector3d p = random_vector(rng, 5.0);
     sums.add_plane(p, i % 2 == 0 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ(), 0.1, 1.0);
@@ -82,7 +82,7 @@ TEST(GaussNewton, DoesNotMoveAlongFreeDirections) {
 TEST(GaussNewton, UncertaintyMovesWithTheCentre) {
   Rng rng(4);
   const Eigen::Vector3d centre(30, -20, 4);
-  NormalEquations about_zero, about_centre;
+  PairEquations about_zero, about_centre;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d p = centre + random_vector(rng, 8.0);
     const Eigen::Vector3d n = random_vector(rng, 1.0).normalized();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loopmark/least_squares/gauss_newton.hpp"
+#include "loopmark/least_squares/pair_equations.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,53 +8,32 @@
 
 namespace loopmark::least_squares {
 
-void NormalEquations::add_point(const Eigen::Vector3d& moved, const Eigen::Vector3d& residual, double w) {
-  const Eigen::Matrix3d cross = hat(moved);
-  hessian.topLeftCorner<3, 3>().diagonal().array() += w;
-  hessian.topRightCorner<3, 3>() -= w * cross;
-  hessian.bottomLeftCorner<3, 3>() += w * cross;
-  const double r2 = moved.squaredNorm();
-  hessian.bottomRightCorner<3, 3>().noalias() -= w * moved * moved.transpose();
-  hessian.bottomRightCorner<3, 3>().diagonal().array() += w * r2;
-  gradient.head<3>() += w * residual;
-  gradient.tail<3>() += w * moved.cross(residual);
-  cost += w * residual.squaredNorm();
-  weight += w;
-  squared_radius += w * r2;
-  residuals += 3;
-  ++pairs;
-}
-
-void NormalEquations::add_plane(const Eigen::Vector3d& arm, const Eigen::Vector3d& normal, double distance, double w) {
-  Vector6d jacobian;
-  jacobian << normal, arm.cross(normal);
-  const Vector6d weighted = w * jacobian;
-  hessian.noalias() += weighted * jacobian.transpose();
-  gradient += distance * weighted;
-  cost += w * distance * distance;
+void PairEquations::count(const Eigen::Vector3d& arm, double squared_residual, double w, std::size_t scalars) {
+  cost += w * squared_residual;
   weight += w;
   squared_radius += w * arm.squaredNorm();
-  ++residuals;
+  residuals += scalars;
   ++pairs;
 }
 
-void NormalEquations::add_general(const Eigen::Vector3d& moved, const Eigen::Vector3d& residual,
-                                  const Eigen::Matrix3d& information, double w) {
-  Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian << Eigen::Matrix3d::Identity(), -hat(moved);
-  const Eigen::Matrix<double, 3, 6> weighted = w * (information * jacobian);
-  hessian.noalias() += jacobian.transpose() * weighted;
-  gradient.noalias() += weighted.transpose() * residual;
-  cost += w * residual.dot(information * residual);
-  weight += w;
-  squared_radius += w * moved.squaredNorm();
-  ++residuals;
-  ++pairs;
+void PairEquations::add_point(const Eigen::Vector3d& moved, const Eigen::Vector3d& residual, double w) {
+  add_point_to_point(*this, moved, residual, w);
+  count(moved, residual.squaredNorm(), w, 3);
 }
 
-NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
-  hessian += other.hessian;
-  gradient += other.gradient;
+void PairEquations::add_plane(const Eigen::Vector3d& arm, const Eigen::Vector3d& normal, double distance, double w) {
+  add_point_to_plane(*this, arm, normal, distance, w);
+  count(arm, distance * distance, w, 1);
+}
+
+void PairEquations::add_general(const Eigen::Vector3d& moved, const Eigen::Vector3d& residual,
+                                const Eigen::Matrix3d& information, double w) {
+  add_generalized(*this, moved, residual, information, w);
+  count(moved, residual.dot(information * residual), w, 1);
+}
+
+PairEquations& PairEquations::operator+=(const PairEquations& other) {
+  NormalEquations<6>::operator+=(other);
   cost += other.cost;
   weight += other.weight;
   squared_radius += other.squared_radius;
@@ -76,7 +55,7 @@ Vector6d scale_of(double radius_m) {
 
 int Constraint::weak(double threshold) const { return static_cast<int>((strengths.array() < threshold).count()); }
 
-Constraint constraint_of(const NormalEquations& equations) {
+Constraint constraint_of(const PairEquations& equations) {
   Constraint constraint;
   if (!(equations.weight > 0.0)) {
     return constraint;
@@ -90,7 +69,7 @@ Constraint constraint_of(const NormalEquations& equations) {
   return constraint;
 }
 
-Vector6d gauss_newton_step(const NormalEquations& equations, double min_strength) {
+Vector6d gauss_newton_step(const PairEquations& equations, double min_strength) {
   const Constraint constraint = constraint_of(equations);
   const Vector6d scale = scale_of(constraint.radius_m);
   Vector6d along = constraint.directions.transpose() * (scale.asDiagonal() * equations.gradient);
@@ -101,7 +80,7 @@ Vector6d gauss_newton_step(const NormalEquations& equations, double min_strength
   return scale.asDiagonal() * (constraint.directions * along);
 }
 
-Uncertainty uncertainty_of(const NormalEquations& equations, double residual_variance, double largest_sigma) {
+Uncertainty uncertainty_of(const PairEquations& equations, double residual_variance, double largest_sigma) {
   const Constraint constraint = constraint_of(equations);
   const Vector6d scale = scale_of(constraint.radius_m);
   const double least = 1.0 / (largest_sigma * largest_sigma);

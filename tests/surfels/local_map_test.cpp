@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loopmark/odometry/local_map.hpp"
+#include "loopmark/surfels/local_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include "loopmark/core/random.hpp"
 
-namespace loopmark::odometry {
+namespace loopmark::surfels {
 namespace {
 
 std::vector<Eigen::Vector3d> random_points(std::size_t count, double span, std::uint64_t seed) {
@@ -85,4 +85,4 @@ TEST(LocalMap, FarFromTheOriginIsAsExactAsNear) {
 }
 
 }  // namespace
-}  // namespace loopmark::odometry
+}  // namespace loopmark::surfels

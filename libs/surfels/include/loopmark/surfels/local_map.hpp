@@ -10,7 +10,7 @@
 #include "loopmark/core/pose.hpp"
 #include "loopmark/search/voxel_table.hpp"
 
-namespace loopmark::odometry {
+namespace loopmark::surfels {
 
 /// The map point that is nearest to a query.
 struct MapMatch {
@@ -64,4 +64,4 @@ class LocalMap {
   std::vector<Cell> cells_;
 };
 
-}  // namespace loopmark::odometry
+}  // namespace loopmark::surfels
