@@ -15,6 +15,7 @@
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/experiment.hpp"
+#include "loopmark/evaluation/pair_algorithm.hpp"
 #include "loopmark/evaluation/result_tables.hpp"
 #include "loopmark/evaluation/set_check.hpp"
 #include "loopmark/io/dataset.hpp"
@@ -33,7 +34,8 @@ struct Arguments {
 
 evaluation::AlgorithmList competitors(const std::string& libraries) {
   evaluation::AlgorithmList list;
-  list.push_back(evaluation::make_engine_algorithm({}, config::dump(registration::EngineOptions())));
+  list.push_back(evaluation::make_pair_algorithm(registration::engine_registration({}),
+                                                 config::dump(registration::EngineOptions())));
   for (const auto& library : {open3d_library(), pcl_library()}) {
     if (library && libraries.find(library->name) != std::string::npos) {
       add_peers(list, *library);

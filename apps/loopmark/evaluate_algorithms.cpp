@@ -7,6 +7,7 @@
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/external_algorithm.hpp"
+#include "loopmark/evaluation/pair_algorithm.hpp"
 #include "loopmark/feature_registration/named_algorithms.hpp"
 
 namespace loopmark::app {
@@ -62,7 +63,8 @@ class Collection {
   std::unique_ptr<evaluation::RegistrationAlgorithm> by_name(const std::string& name,
                                                              const evaluation::DescriptorSource& descriptors) const {
     if (name == "engine") {
-      return evaluation::make_engine_algorithm(options_.registration, config::dump(options_.registration));
+      return evaluation::make_pair_algorithm(registration::engine_registration(options_.registration),
+                                             config::dump(options_.registration));
     }
     if (name.substr(0, name.find('#')) == "custom") {
       return evaluation::make_configured_algorithm(name, options_.paper, config::dump(options_.paper), descriptors);

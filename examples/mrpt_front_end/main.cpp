@@ -9,14 +9,14 @@
 #include <exception>
 
 #include "loopmark/map_export/products.hpp"
-#include "loopmark/mapping/engine_registrar.hpp"
 #include "loopmark/mrpt_bridge/conversions.hpp"
+#include "loopmark/registration/pair_registration.hpp"
 
 namespace {
 
 mrpt::maps::CSimpleMap map_of(const mrpt::obs::CRawlog& frames, const char* run) {
   const loopmark::map_store::RunFolder folder = loopmark::map_store::RunFolder::create(run);
-  loopmark::mapping::Mapper mapper(folder, {}, loopmark::mapping::engine_registrar({}),
+  loopmark::mapping::Mapper mapper(folder, {}, loopmark::registration::engine_registration({}),
                                    loopmark::odometry::Compensation::kCompensated, {});
   for (const auto& object : frames) {
     mrpt::obs::CSensoryFrame frame;

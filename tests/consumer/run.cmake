@@ -14,8 +14,9 @@ run_step(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G ${GENERATOR
   -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_BUILD_TYPE=Release
   -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER})
 run_step(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run_step(${WORK_DIR}/build/consumer)
-if(NOT output MATCHES "^2 28\\.64")
+run_step(${WORK_DIR}/prefix/bin/loopmark --quiet simulate --length 60 --sensor vlp16 -o ${WORK_DIR}/log)
+run_step(${WORK_DIR}/build/consumer ${WORK_DIR})
+if(NOT output MATCHES "mapped [1-9].*placed [1-9].*standing_still: P")
   message(FATAL_ERROR "the consumer printed: ${output}")
 endif()
 run_step(${WORK_DIR}/prefix/bin/loopmark --version)

@@ -14,38 +14,57 @@
 #include "loopmark/core/random.hpp"
 #include "loopmark/map_store/keyframe_files.hpp"
 #include "loopmark/map_store/records.hpp"
-#include "loopmark/mapping/registrar.hpp"
+#include "loopmark/registration/pair_registration.hpp"
 #include "loopmark/storage/files.hpp"
 
 namespace loopmark::testing_support {
 
 /// Finds out which keyframes it is asked about: the first point of each cloud carries the keyframe's number as its z.
-struct ToldRegistrar : mapping::Registrar {
+struct ToldCloud : registration::PreparedCloud {
+  explicit ToldCloud(std::string what) : told(std::move(what)) {}
+  std::string to_bytes() const override { return told; }
+  const std::string told;
+};
+
+struct ToldRegistrar : registration::PairRegistration {
   /// What align and verify answer for two keyframes.
   std::function<registration::RegistrationResult(std::size_t source, std::size_t target, bool submaps)> align_answer;
   std::function<registration::RegistrationResult(std::size_t source, std::size_t target, const Pose& claimed)>
       verify_answer;
 
-  std::string prepare(const PointCloud& cloud) const override { return "scan " + number(cloud); }
-  std::string join(const std::vector<PointCloud>& clouds, const std::vector<Pose>& T_submap_scan) const override {
+  const std::string& name() const override { return name_; }
+  registration::PreparedCloudPtr prepare(const PointCloud& cloud) const override {
+    return std::make_shared<ToldCloud>("scan " + number(cloud));
+  }
+  registration::PreparedCloudPtr prepare_submap(const std::vector<PointCloud>& clouds,
+                                                const std::vector<Pose>& T_submap_scan) const override {
     for (std::size_t i = 0; i < clouds.size(); ++i) {
       if (T_submap_scan[i].isApprox(Pose::Identity())) {
-        return "submap " + number(clouds[i]);
+        return std::make_shared<ToldCloud>("submap " + number(clouds[i]));
       }
     }
-    return "none";
+    return std::make_shared<ToldCloud>("none");
   }
-  registration::RegistrationResult align(const std::string& source, const std::string& target) const override {
-    return align_answer(keyframe(source), keyframe(target), source.starts_with("submap"));
+  registration::PreparedCloudPtr restore(const std::string& bytes) const override {
+    return std::make_shared<ToldCloud>(bytes);
   }
-  registration::RegistrationResult verify(const std::string& source, const std::string& target,
+  registration::RegistrationResult align(const registration::PreparedCloud& source,
+                                         const registration::PreparedCloud& target) const override {
+    return align_answer(keyframe(source), keyframe(target), source.to_bytes().starts_with("submap"));
+  }
+  registration::RegistrationResult verify(const registration::PreparedCloud& source,
+                                          const registration::PreparedCloud& target,
                                           const Pose& claimed) const override {
     return verify_answer(keyframe(source), keyframe(target), claimed);
   }
 
  private:
   static std::string number(const PointCloud& cloud) { return std::to_string(std::lround(cloud.points.front().z())); }
-  static std::size_t keyframe(const std::string& bytes) { return std::stoul(bytes.substr(bytes.find(' '))); }
+  static std::size_t keyframe(const registration::PreparedCloud& cloud) {
+    const std::string told = cloud.to_bytes();
+    return std::stoul(told.substr(told.find(' ')));
+  }
+  std::string name_ = "told";
 };
 
 inline registration::RegistrationResult sure_answer(const Pose& T_target_source) {
@@ -113,7 +132,7 @@ class KnownRun {
     }
     map_store::write_keyframe_cloud(folder_, k, cloud);
     map_store::write_keyframe_place(folder_, k, cloud);
-    storage::write_file_atomically(folder_.keyframe(k, "prepared"), ToldRegistrar().prepare(cloud));
+    storage::write_file_atomically(folder_.keyframe(k, "prepared"), ToldRegistrar().prepare(cloud)->to_bytes());
   }
 
   std::filesystem::path path_;

@@ -2,27 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/map_store/keyframe_files.hpp"
 #include "loopmark/mapping/loop_closer.hpp"
-#include "loopmark/storage/files.hpp"
 
 namespace loopmark::mapping {
 
+registration::PreparedCloudPtr KeyframeRegistrar::prepared(std::size_t keyframe) const {
+  return registration::restore_file(registrar_, folder_.keyframe(keyframe, "prepared"));
+}
+
 registration::RegistrationResult KeyframeRegistrar::scans(std::size_t source, std::size_t target) const {
-  return registrar_.align(storage::read_file(folder_.keyframe(source, "prepared")),
-                          storage::read_file(folder_.keyframe(target, "prepared")));
+  return registrar_.align(*prepared(source), *prepared(target));
 }
 
 registration::RegistrationResult KeyframeRegistrar::verify(std::size_t source, std::size_t target,
                                                            const Pose& T_target_source) const {
-  return registrar_.verify(storage::read_file(folder_.keyframe(source, "prepared")),
-                           storage::read_file(folder_.keyframe(target, "prepared")), T_target_source);
+  return registrar_.verify(*prepared(source), *prepared(target), T_target_source);
 }
 
 registration::RegistrationResult KeyframeRegistrar::submaps(std::size_t source, std::size_t target,
                                                             std::size_t count) const {
-  return registrar_.align(submap(source, count), submap(target, count));
+  return registrar_.align(*submap(source, count), *submap(target, count));
 }
 
-std::string KeyframeRegistrar::submap(std::size_t middle, std::size_t count) const {
+registration::PreparedCloudPtr KeyframeRegistrar::submap(std::size_t middle, std::size_t count) const {
   const std::size_t half = count / 2;
   const Pose T_submap_segment = keyframes_[middle].T_segment_lidar.inverse();
   std::vector<PointCloud> clouds;
@@ -33,7 +34,7 @@ std::string KeyframeRegistrar::submap(std::size_t middle, std::size_t count) con
       T_submap_scan.push_back(T_submap_segment * keyframes_[k].T_segment_lidar);
     }
   }
-  return registrar_.join(clouds, T_submap_scan);
+  return registrar_.prepare_submap(clouds, T_submap_scan);
 }
 
 void store_result(const registration::RegistrationResult& result, map_store::LoopRecord& candidate) {

@@ -117,7 +117,8 @@ struct LoopCloser::Work {
 };
 
 LoopCloser::LoopCloser(const map_store::RunFolder& folder, const SlamOptions& options,
-                       const pose_graph::PoseGraphOptions& graph_options, const Registrar& registrar, LoopScope scope)
+                       const pose_graph::PoseGraphOptions& graph_options,
+                       const registration::PairRegistration& registrar, LoopScope scope)
     : folder_(folder),
       options_(options),
       graph_options_(graph_options),

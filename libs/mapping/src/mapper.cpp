@@ -13,7 +13,7 @@
 namespace loopmark::mapping {
 
 Mapper::Mapper(const map_store::RunFolder& folder, const MapperOptions& options,
-               std::shared_ptr<const Registrar> registrar, odometry::Compensation compensation,
+               registration::PairRegistrationPtr registrar, odometry::Compensation compensation,
                const cloud::SweepModel& sweep)
     : folder_(folder),
       options_(options),
@@ -77,7 +77,8 @@ void Mapper::write_keyframe(const Scan& scan, const map_store::ScanRecord& recor
   map_store::write_keyframe_cloud(folder_, *record.keyframe, thin);
   map_store::write_keyframe_place(folder_, *record.keyframe, thin);
   if (registrar_) {
-    storage::write_file_atomically(folder_.keyframe(*record.keyframe, "prepared"), registrar_->prepare(cloud));
+    storage::write_file_atomically(folder_.keyframe(*record.keyframe, "prepared"),
+                                   registrar_->prepare(cloud)->to_bytes());
   }
 }
 

@@ -21,8 +21,9 @@ bool same_place(const Pose& a, const Pose& b) {
 }
 
 /// Registers a prepared scan to the latest keyframes of the last segment, until `enough` says so of an answer.
-bool registers(const Registrar& registrar, const map_store::RunFolder& folder, const std::vector<Keyframe>& keyframes,
-               const SlamOptions& options, const std::string& source,
+bool registers(const registration::PairRegistration& registrar, const map_store::RunFolder& folder,
+               const std::vector<Keyframe>& keyframes, const SlamOptions& options,
+               const registration::PreparedCloud& source,
                const std::function<bool(const Pose& T_segment_lidar, double p_correct)>& enough) {
   for (std::size_t back = 0; back < options.recovery_keyframes && back < keyframes.size(); ++back) {
     const Keyframe& keyframe = keyframes[keyframes.size() - 1 - back];
@@ -30,7 +31,7 @@ bool registers(const Registrar& registrar, const map_store::RunFolder& folder, c
       break;
     }
     const registration::RegistrationResult result =
-        registrar.align(source, storage::read_file(folder.keyframe(keyframe.number, "prepared")));
+        registrar.align(source, *registration::restore_file(registrar, folder.keyframe(keyframe.number, "prepared")));
     const bool worth = result.answered || result.p_correct >= kWorthAgreeing;
     if (worth && enough(keyframe.T_segment_lidar * result.T_target_source, result.p_correct)) {
       return true;
@@ -57,7 +58,7 @@ Mapper::Placed Mapper::place(const Scan& scan) {
     const bool confirmed =
         registrar_ && placed.tracked.tracking_status.tracking != odometry::Tracking::kLost &&
         registers(*registrar_, folder_, keyframes_, options_.slam,
-                  registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.sweep_velocity)),
+                  *registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.sweep_velocity)),
                   [&](const Pose& pose, double) { return same_place(pose, placed.tracked.T_map_lidar); });
     if (!confirmed) {
       start_segment(scan, "a gap between the scans", placed);
@@ -121,8 +122,9 @@ bool Mapper::recover(const Scan& scan, Placed& placed) const {
   const bool only_one = keyframes_.size() < 2 || keyframes_[keyframes_.size() - 2].segment != segment_ ||
                         options_.slam.recovery_keyframes < 2;
   std::vector<Pose> answers;
-  const std::string source = registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.sweep_velocity));
-  return registers(*registrar_, folder_, keyframes_, options_.slam, source, [&](const Pose& pose, double p_correct) {
+  const registration::PreparedCloudPtr source =
+      registrar_->prepare(odometry_.deskewed_cloud(scan, placed.tracked.sweep_velocity));
+  return registers(*registrar_, folder_, keyframes_, options_.slam, *source, [&](const Pose& pose, double p_correct) {
     const bool agrees =
         std::any_of(answers.begin(), answers.end(), [&](const Pose& other) { return same_place(pose, other); });
     if (agrees || (only_one && p_correct >= options_.slam.min_loop_p)) {

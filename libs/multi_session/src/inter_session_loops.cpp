@@ -159,7 +159,7 @@ std::string why_apart(std::size_t drive, const std::vector<InterSessionLoop>& in
 class Joiner {
  public:
   Joiner(JoinedDrives& joined, const map_store::RunFolder& folder, const mapping::SlamOptions& options,
-         const pose_graph::PoseGraphOptions& graph_options, const mapping::Registrar& registrar)
+         const pose_graph::PoseGraphOptions& graph_options, const registration::PairRegistration& registrar)
       : joined_(joined),
         options_(options),
         graph_options_(graph_options),
@@ -230,8 +230,8 @@ class Joiner {
 }  // namespace
 
 JoinedDrives join_sessions(SessionSet set, const map_store::RunFolder& folder, const mapping::SlamOptions& options,
-                           const pose_graph::PoseGraphOptions& graph_options, const mapping::Registrar& registrar,
-                           const mapping::LoopCloser::Report& report) {
+                           const pose_graph::PoseGraphOptions& graph_options,
+                           const registration::PairRegistration& registrar, const mapping::LoopCloser::Report& report) {
   JoinedDrives joined{std::move(set), {}, {}, {}};
   Joiner joiner(joined, folder, options, graph_options, registrar);
   const mapping::LoopCloser closer(

@@ -11,10 +11,10 @@
 #include "loopmark/core/progress.hpp"
 #include "loopmark/map_export/products.hpp"
 #include "loopmark/map_store/run_records.hpp"
-#include "loopmark/mapping/engine_registrar.hpp"
 #include "loopmark/mapping/loop_closer.hpp"
 #include "loopmark/storage/files.hpp"
 #include "loopmark/workflows/merge_run.hpp"
+#include "loopmark/workflows/pair_registration.hpp"
 
 namespace loopmark::workflows {
 namespace fs = std::filesystem;
@@ -55,7 +55,7 @@ void veto(OpenedRun& run, const std::vector<mapping::Keyframe>& keyframes, const
 
 map_store::LoopRecord registered(const OpenedRun& run, const std::vector<mapping::Keyframe>& keyframes,
                                  const KeyframePair& pair) {
-  const auto registrar = mapping::engine_registrar(run.options.registration);
+  const auto registrar = pair_registration_of(run.options);
   map_store::LoopRecord loop;
   loop.source = pair.source;
   loop.target = pair.target;

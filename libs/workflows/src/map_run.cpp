@@ -8,7 +8,7 @@
 #include "loopmark/io/drive_log.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/map_export/products.hpp"
-#include "loopmark/mapping/engine_registrar.hpp"
+#include "loopmark/workflows/pair_registration.hpp"
 #include "map_feed.hpp"
 #include "map_manifest.hpp"
 
@@ -57,9 +57,8 @@ MapOutcome map_into(map_store::RunFolder& folder, const MapJob& job, const Progr
   const odometry::Compensation compensation = compensation_of(*log, options.slam);
 
   internal::InputRecord inputs(folder, *log);
-  mapping::Mapper mapper(folder, {options.odometry, options.slam, options.pose_graph},
-                         mapping::engine_registrar(options.registration), compensation,
-                         log->info().sweep.value_or(cloud::SweepModel{}));
+  mapping::Mapper mapper(folder, {options.odometry, options.slam, options.pose_graph}, pair_registration_of(options),
+                         compensation, log->info().sweep.value_or(cloud::SweepModel{}));
   internal::feed(mapper, *log, inputs, times);
   if (mapper.keyframes().empty()) {
     throw InputError(job.log.string(), "", "no scan could be used");

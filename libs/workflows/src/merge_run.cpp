@@ -8,8 +8,8 @@
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/map_export/products.hpp"
-#include "loopmark/mapping/engine_registrar.hpp"
 #include "loopmark/storage/files.hpp"
+#include "loopmark/workflows/pair_registration.hpp"
 
 namespace loopmark::workflows {
 namespace fs = std::filesystem;
@@ -18,8 +18,7 @@ namespace {
 multi_session::JoinedDrives join(const multi_session::SessionSet& set, const map_store::RunFolder& folder,
                                  const ProgramOptions& options) {
   LoopProgress progress;
-  return multi_session::join_sessions(set, folder, options.slam, options.pose_graph,
-                                      *mapping::engine_registrar(options.registration),
+  return multi_session::join_sessions(set, folder, options.slam, options.pose_graph, *pair_registration_of(options),
                                       [&](std::size_t done, std::size_t total) { progress.show(done, total); });
 }
 

@@ -7,9 +7,9 @@
 #include <cstdio>
 
 #include "loopmark/io/point_files.hpp"
-#include "loopmark/mapping/engine_registrar.hpp"
 #include "loopmark/mapping/loop_closer.hpp"
 #include "loopmark/report/picture.hpp"
+#include "loopmark/workflows/pair_registration.hpp"
 
 namespace loopmark::workflows {
 namespace {
@@ -123,7 +123,7 @@ Verifier inquire(const OpenedRun& run, const mapping::SolvedMap& map, const Keyf
   if (loop < run.loops.size()) {
     q.loop = loop;
   }
-  const auto registrar = mapping::engine_registrar(run.options.registration);
+  const auto registrar = pair_registration_of(run.options);
   const mapping::KeyframeRegistrar pairs(run.folder, map.keyframes, *registrar);
   q.registration = q.loop && run.loops[*q.loop].origin == mapping::kSubmapOrigin
                        ? pairs.submaps(pair.source, pair.target, run.options.slam.submap_keyframes)

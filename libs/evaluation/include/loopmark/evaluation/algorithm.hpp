@@ -63,10 +63,6 @@ class RegistrationAlgorithm {
 
 using AlgorithmList = std::vector<std::unique_ptr<RegistrationAlgorithm>>;
 
-/// The registration engine, called "engine".
-std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const registration::EngineOptions& options,
-                                                             std::string settings);
-
 /// Descriptors made elsewhere: keypoints and descriptors of a frame are read from folder/SESSION/FRAME.npz
 /// (read_descriptors), FRAME as a plain number or with six digits. Algorithms on them are called "NAME@DOMAIN".
 struct DescriptorSource {

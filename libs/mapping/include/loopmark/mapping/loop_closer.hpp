@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "loopmark/map_store/run_folder.hpp"
-#include "loopmark/mapping/registrar.hpp"
 #include "loopmark/mapping/solved_map.hpp"
+#include "loopmark/registration/pair_registration.hpp"
 
 namespace loopmark::mapping {
 
@@ -19,7 +19,7 @@ namespace loopmark::mapping {
 class KeyframeRegistrar {
  public:
   KeyframeRegistrar(const map_store::RunFolder& folder, const std::vector<Keyframe>& keyframes,
-                    const Registrar& registrar)
+                    const registration::PairRegistration& registrar)
       : folder_(folder), keyframes_(keyframes), registrar_(registrar) {}
 
   registration::RegistrationResult scans(std::size_t source, std::size_t target) const;
@@ -29,11 +29,12 @@ class KeyframeRegistrar {
   registration::RegistrationResult submaps(std::size_t source, std::size_t target, std::size_t count) const;
 
  private:
-  std::string submap(std::size_t middle, std::size_t count) const;
+  registration::PreparedCloudPtr prepared(std::size_t keyframe) const;
+  registration::PreparedCloudPtr submap(std::size_t middle, std::size_t count) const;
 
   const map_store::RunFolder& folder_;
   const std::vector<Keyframe>& keyframes_;
-  const Registrar& registrar_;
+  const registration::PairRegistration& registrar_;
 };
 
 /// What the registration of a candidate came to, written into its record.
@@ -52,7 +53,8 @@ struct LoopScope {
 class LoopCloser {
  public:
   LoopCloser(const map_store::RunFolder& folder, const SlamOptions& options,
-             const pose_graph::PoseGraphOptions& graph_options, const Registrar& registrar, LoopScope scope = {});
+             const pose_graph::PoseGraphOptions& graph_options, const registration::PairRegistration& registrar,
+             LoopScope scope = {});
 
   using Keep = std::function<void(const map_store::LoopRecord& loop)>;
   using Report = std::function<void(std::size_t done, std::size_t total)>;
@@ -74,7 +76,7 @@ class LoopCloser {
   const map_store::RunFolder& folder_;
   SlamOptions options_;
   pose_graph::PoseGraphOptions graph_options_;
-  const Registrar& registrar_;
+  const registration::PairRegistration& registrar_;
   LoopScope scope_;
 };
 

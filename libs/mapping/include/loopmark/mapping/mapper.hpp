@@ -10,9 +10,9 @@
 
 #include "loopmark/map_store/records.hpp"
 #include "loopmark/map_store/run_folder.hpp"
-#include "loopmark/mapping/registrar.hpp"
 #include "loopmark/mapping/solved_map.hpp"
 #include "loopmark/odometry/odometry.hpp"
+#include "loopmark/registration/pair_registration.hpp"
 #include "loopmark/storage/record_file.hpp"
 
 namespace loopmark::mapping {
@@ -28,7 +28,7 @@ struct MapperOptions {
 class Mapper {
  public:
   /// `registrar` may be null: then lost scans start new segments and no loop is closed.
-  Mapper(const map_store::RunFolder& folder, const MapperOptions& options, std::shared_ptr<const Registrar> registrar,
+  Mapper(const map_store::RunFolder& folder, const MapperOptions& options, registration::PairRegistrationPtr registrar,
          odometry::Compensation compensation, const cloud::SweepModel& sweep);
   ~Mapper();
 
@@ -72,7 +72,7 @@ class Mapper {
 
   const map_store::RunFolder& folder_;
   MapperOptions options_;
-  std::shared_ptr<const Registrar> registrar_;
+  registration::PairRegistrationPtr registrar_;
   odometry::Odometry odometry_;
   std::size_t segment_ = 0;
   std::size_t bad_scans_ = 0;

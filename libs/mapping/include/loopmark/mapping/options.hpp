@@ -2,23 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "loopmark/core/options.hpp"
 #include "loopmark/odometry/options.hpp"
 
 namespace loopmark::mapping {
 
 struct SlamOptions {
-  double keyframe_m = 2.5;          ///< a keyframe after this distance,
-  double keyframe_deg = 25.0;       ///< or this turn,
-  double novelty = 0.5;             ///< or when this share of the scan is not in the local map (and 0.5 m are driven)
-  double keyframe_voxel_m = 0.2;    ///< one point a voxel is kept of a keyframe
-  double cloud_voxel_m = 0.2;       ///< and of the cloud of the whole map
-  bool close_loops = true;          ///< look for places seen before
-  std::size_t loop_candidates = 2;  ///< places tried for each keyframe
-  double loop_every_m = 5.0;        ///< places are looked up once in this distance
-  double loop_gap_m = 40.0;         ///< a place passed within this distance of driving is no loop
-  double max_loop_m = 25.0;         ///< places seen from farther apart add error, not knowledge, within a segment
-  double min_loop_p = 0.9;          ///< a loop below this P(correct) is kept as evidence but not used
+  double keyframe_m = 2.5;        ///< a keyframe after this distance,
+  double keyframe_deg = 25.0;     ///< or this turn,
+  double novelty = 0.5;           ///< or when this share of the scan is not in the local map (and 0.5 m are driven)
+  double keyframe_voxel_m = 0.2;  ///< one point a voxel is kept of a keyframe
+  double cloud_voxel_m = 0.2;     ///< and of the cloud of the whole map
+  std::string registration =
+      "engine";             ///< what registers loop candidates: the engine, or a variant of the paper's pipeline
+  bool close_loops = true;  ///< look for places seen before
+  std::size_t loop_candidates = 2;     ///< places tried for each keyframe
+  double loop_every_m = 5.0;           ///< places are looked up once in this distance
+  double loop_gap_m = 40.0;            ///< a place passed within this distance of driving is no loop
+  double max_loop_m = 25.0;            ///< places seen from farther apart add error, not knowledge, within a segment
+  double min_loop_p = 0.9;             ///< a loop below this P(correct) is kept as evidence but not used
   std::size_t recovery_keyframes = 3;  ///< latest keyframes that a lost scan is registered to
   double max_gap_s = 2.0;  ///< a longer gap between scans (and ten times the usual one) starts a new segment
   std::size_t segment_candidates = 8;  ///< more pairs of places tried for each part of the map that nothing joins
@@ -40,6 +44,9 @@ void describe(Visitor& v, SlamOptions& o) {
   v.field("novelty", o.novelty, "or when this share of the scan is not in the local map");
   v.field("keyframe_voxel_m", o.keyframe_voxel_m, "one point a voxel is kept of a keyframe, metres");
   v.field("cloud_voxel_m", o.cloud_voxel_m, "and of the cloud of the whole map, metres");
+  v.field(
+      "registration", o.registration,
+      "what registers loop candidates: engine, or a variant of the paper's pipeline whose motions the engine verifies");
   v.field("close_loops", o.close_loops, "look for places seen before");
   v.field("loop_candidates", o.loop_candidates, "places tried for each keyframe");
   v.field("loop_every_m", o.loop_every_m, "places are looked up once in this distance, metres");

@@ -42,7 +42,8 @@ struct JoinedDrives {
 /// Looks for loops between the drives, whose keyframes' files are in `folder`, solves, and judges which drives hang
 /// together: the group of most drives is the map. Throws Interrupted when the user asks to stop.
 JoinedDrives join_sessions(SessionSet set, const map_store::RunFolder& folder, const mapping::SlamOptions& options,
-                           const pose_graph::PoseGraphOptions& graph_options, const mapping::Registrar& registrar,
+                           const pose_graph::PoseGraphOptions& graph_options,
+                           const registration::PairRegistration& registrar,
                            const mapping::LoopCloser::Report& report = {});
 
 }  // namespace loopmark::multi_session

@@ -1,27 +1,26 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <utility>
+#include "loopmark/evaluation/pair_algorithm.hpp"
 
 #include "loopmark/core/progress.hpp"
-#include "loopmark/evaluation/algorithm.hpp"
 
 namespace loopmark::evaluation {
 namespace {
 
-class EngineAlgorithm : public RegistrationAlgorithm {
+class PairAlgorithm : public RegistrationAlgorithm {
  public:
-  EngineAlgorithm(const registration::EngineOptions& options, std::string settings)
-      : options_(options), settings_(std::move(settings)) {}
+  PairAlgorithm(registration::PairRegistrationPtr registration, std::string settings)
+      : registration_(std::move(registration)), settings_(std::move(settings)) {}
 
-  const std::string& name() const override { return name_; }
+  const std::string& name() const override { return registration_->name(); }
   std::string settings() const override { return settings_; }
 
   Answer answer(const PairTask& task) override {
     const Stopwatch whole;
-    const registration::PreparedScan source = registration::prepare_scan(task.scans->source(), options_);
-    const registration::PreparedScan target = registration::prepare_scan(task.scans->target(), options_);
+    const registration::PreparedCloudPtr source = registration_->prepare(task.scans->source());
+    const registration::PreparedCloudPtr target = registration_->prepare(task.scans->target());
     const double prepared = whole.seconds();
-    const registration::RegistrationResult result = registration::register_scans(source, target, options_);
+    const registration::RegistrationResult result = registration_->align(*source, *target);
     return answer_of(result, prepared, whole.seconds());
   }
 
@@ -43,16 +42,15 @@ class EngineAlgorithm : public RegistrationAlgorithm {
     return answer;
   }
 
-  registration::EngineOptions options_;
+  registration::PairRegistrationPtr registration_;
   std::string settings_;
-  std::string name_ = "engine";
 };
 
 }  // namespace
 
-std::unique_ptr<RegistrationAlgorithm> make_engine_algorithm(const registration::EngineOptions& options,
-                                                             std::string settings) {
-  return std::make_unique<EngineAlgorithm>(options, std::move(settings));
+std::unique_ptr<RegistrationAlgorithm> make_pair_algorithm(registration::PairRegistrationPtr registration,
+                                                           std::string settings) {
+  return std::make_unique<PairAlgorithm>(std::move(registration), std::move(settings));
 }
 
 }  // namespace loopmark::evaluation
