@@ -165,6 +165,28 @@ TEST(DriveLog, StampsInFileNames) {
   EXPECT_EQ(log->frame_number(1), 1U);
 }
 
+TEST(DriveLog, NanosecondsInFileNamesThatNobodyPadded) {
+  const TemporaryFolder folder;
+  for (const char* name : {"1741286117.5000000.pcd", "1741286117.105000000.pcd", "1741286117.205000000.pcd"}) {
+    write_pcd(folder / name, random_cloud(60));
+  }
+  const auto log = open_log(folder.path());
+  EXPECT_NEAR(log->stamp_s(0), 1741286117.005, 1e-6);
+  EXPECT_NEAR(log->stamp_s(1), 1741286117.105, 1e-6);
+  EXPECT_NEAR(log->stamp_s(2), 1741286117.205, 1e-6);
+}
+
+TEST(DriveLog, FractionsInFileNamesWithoutTheirLastZerosComeInOrderOfTime) {
+  const TemporaryFolder folder;
+  for (const char* name : {"1741286117.5.pcd", "1741286117.605.pcd", "1741286117.41.pcd"}) {
+    write_pcd(folder / name, random_cloud(60));
+  }
+  const auto log = open_log(folder.path());
+  EXPECT_NEAR(log->stamp_s(0), 1741286117.41, 1e-6);
+  EXPECT_NEAR(log->stamp_s(1), 1741286117.5, 1e-6);
+  EXPECT_THAT(log->scan_name(1), HasSubstr("117.5.pcd"));
+}
+
 TEST(DriveLog, MulRanPosesAreThoseOfTheOuster) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "Ouster");

@@ -63,6 +63,21 @@ TEST(Trajectory, PosesBetweenStampsAreInterpolated) {
   EXPECT_NEAR(pose_at(trajectory, 9.0).translation().x(), 10.0, 1e-9);
 }
 
+TEST(Trajectory, PosesAreJoinedToScansByTime) {
+  const Trajectory in_order{some_stamps(), some_poses()};
+  Trajectory backwards;
+  backwards.stamps_s.assign(in_order.stamps_s.rbegin(), in_order.stamps_s.rend());
+  backwards.poses.assign(in_order.poses.rbegin(), in_order.poses.rend());
+  const std::vector<double> scans = {in_order.stamps_s[3], in_order.stamps_s[7] + 0.05};
+  const std::vector<Pose> poses = poses_of_scans(backwards, scans, "a.tum");
+  EXPECT_LT((poses[0].matrix() - in_order.poses[3].matrix()).norm(), 1e-9);
+  EXPECT_LT((poses[1].matrix() - interpolate(in_order.poses[7], in_order.poses[8], 0.5).matrix()).norm(), 1e-2);
+  const std::vector<double> later = {in_order.stamps_s[3], in_order.stamps_s[7] + 86400.0};
+  EXPECT_THAT(message_of<InputError>([&] { poses_of_scans(in_order, later, "a.tum"); }), HasSubstr("only 1 of 2 scans"));
+  EXPECT_THAT(message_of<InputError>([&] { poses_of_scans({}, scans, "empty.tum"); }), HasSubstr("holds no pose"));
+  EXPECT_THAT(message_of<InputError>([&] { poses_of_scans({{}, some_poses()}, scans, "a.kitti"); }), HasSubstr("20 poses for 2"));
+}
+
 TEST(Trajectory, WrongLinesAreNamed) {
   const TemporaryFolder folder;
   const auto problem = [&](const char* content) {

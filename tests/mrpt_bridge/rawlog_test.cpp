@@ -3,6 +3,8 @@
 #include "loopmark/mrpt_bridge/rawlog.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <zlib.h>
 
 #include <algorithm>
 
@@ -76,6 +78,35 @@ TEST(Rawlog, UnfinishedFilesDoNotGetTheName) {
   }
   EXPECT_TRUE(fs::is_empty(folder.path()));
   EXPECT_THROW(RawlogWriter(folder / "no/such/folder/a.rawlog", "top"), InputError);
+}
+
+std::string unpacked(const fs::path& path) {
+  const gzFile file = ::gzopen(path.c_str(), "rb");
+  std::string bytes(1U << 24U, '\0');
+  bytes.resize(static_cast<std::size_t>(::gzread(file, bytes.data(), static_cast<unsigned>(bytes.size()))));
+  ::gzclose(file);
+  return bytes;
+}
+
+TEST(Rawlog, ALengthThatIsALieTakesNoMemoryAndEndsTheLogThere) {
+  const TemporaryFolder folder;
+  const std::string bytes = unpacked(write_log(folder / "whole.rawlog", 10));
+  const std::string count = testing::bytes_of(std::uint32_t{65});  // of the sixth scan's points
+  std::size_t changed = 0;
+  for (std::size_t at = bytes.find(count); at != std::string::npos; at = bytes.find(count, at + 1)) {
+    for (const std::uint32_t claim : {0x20000000U, 0x40000000U, 0xffffffffU}) {
+      std::string evil = bytes;
+      evil.replace(at, 4, testing::bytes_of(claim));
+      folder.write("evil.rawlog", evil);
+      const RawlogReader reader(folder / "evil.rawlog", "");
+      EXPECT_LE(reader.size(), 10U);
+      changed += reader.size() == 5 && !reader.problem().empty() ? 1 : 0;
+    }
+  }
+  EXPECT_GE(changed, 3U);
+  struct rusage usage {};
+  ASSERT_EQ(::getrusage(RUSAGE_CHILDREN, &usage), 0);
+  EXPECT_LT(usage.ru_maxrss, 3'000'000);  // kB
 }
 
 TEST(Rawlog, FullDiskIsAnError) {

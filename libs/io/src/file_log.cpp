@@ -37,7 +37,7 @@ ScanReading FileLog::read_closely(std::size_t index) const {
   if (file.first_time_s) {
     refer_to_stamp(file.cloud.time_offset_s, *file.first_time_s, stamp_s(index));
   }
-  ScanReading reading{{index, stamp_s(index), std::move(file.cloud)}, file.dropped, false, false};
+  ScanReading reading{{index, stamp_s(index), std::move(file.cloud)}, file.dropped, false, false, file.has_viewpoint};
   finish_reading(reading, scan_name(index), parts_.info, parts_.options);
   if (parts_.T_cloud_sensor) {
     reading.scan.cloud = transformed(reading.scan.cloud, *parts_.T_cloud_sensor);

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <numeric>
 
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/storage/files.hpp"
@@ -48,23 +50,31 @@ std::vector<std::size_t> frame_numbers_of(const std::vector<fs::path>& files) {
   return numbers;
 }
 
-std::string rate_text(double rate_hz) {
-  char text[48];
-  std::snprintf(text, sizeof text, "rate %g Hz", rate_hz);
-  return text;
+std::string rate_text(double rate_hz) { return format_text("rate %g Hz", rate_hz); }
+
+/// Files in the order of the times in their names, with these times.
+void order_by_stamps(FileLogParts& parts) {
+  std::vector<std::size_t> order(parts.files.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return parts.stamps_s[a] < parts.stamps_s[b]; });
+  std::vector<fs::path> files;
+  std::vector<double> stamps_s;
+  for (const std::size_t i : order) {
+    files.push_back(parts.files[i]);
+    stamps_s.push_back(parts.stamps_s[i]);
+  }
+  parts.files = std::move(files);
+  parts.stamps_s = std::move(stamps_s);
 }
 
 void stamps_by_names_or_rate(FileLogParts& parts) {
-  for (const fs::path& file : parts.files) {
-    const auto stamp = stamp_in_name(file);
-    if (!stamp) {
-      break;
-    }
-    parts.stamps_s.push_back(*stamp);
-  }
-  parts.info.stamps_given = parts.stamps_s.size() == parts.files.size();
+  parts.stamps_s = stamps_in_names(parts.files);
+  parts.info.stamps_given = !parts.stamps_s.empty();
   parts.info.stamps_source = parts.info.stamps_given ? "file names" : rate_text(parts.options.rate_hz);
   if (parts.info.stamps_given) {
+    order_by_stamps(parts);
+    parts.info.problem = repair_timestamps(parts.stamps_s, parts.files.front().parent_path());
     return;
   }
   // Numbers with few gaps are scans that were dropped; other numbers say nothing about time.
@@ -129,7 +139,7 @@ std::size_t first_missing(const std::vector<std::size_t>& places) {
 
 double stamp_of_line(std::string_view line, const fs::path& file, std::size_t number) {
   const std::vector<std::string_view> words = text::split_words(line, ',');
-  std::optional<double> stamp = text::parse_number(words.front());
+  std::optional<double> stamp = words.empty() ? std::nullopt : text::parse_number(words.front());
   if (!stamp) {
     stamp = parse_date_time(line);
   }
@@ -264,12 +274,34 @@ std::string repair_timestamps(std::vector<double>& stamps_s, const fs::path& fil
   return problem;
 }
 
+namespace {
+
+void take_truth_by_time(FileLogParts& parts, const Trajectory& trajectory, const fs::path& file) {
+  try {
+    parts.truth = poses_of_scans(trajectory, parts.stamps_s, file.string());
+  } catch (const InputError& problem) {
+    parts.info.truth_problem = std::string(problem.what()) + "; they are not used";
+    log(Severity::kWarning, parts.info.truth_problem);
+    return;
+  }
+  parts.info.truth_given = true;
+  parts.info.truth_source = file.string();
+  parts.info.companions.push_back(file);
+}
+
+}  // namespace
+
 void take_truth(FileLogParts& parts, const fs::path& file, const std::optional<Pose>& T_camera_lidar) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     return;
   }
-  const std::vector<Pose> poses = read_trajectory(file).poses;
+  const Trajectory trajectory = read_trajectory(file);
+  if (!trajectory.stamps_s.empty()) {
+    take_truth_by_time(parts, trajectory, file);
+    return;
+  }
+  const std::vector<Pose>& poses = trajectory.poses;
   const auto rows = rows_of_scans(parts, poses.size());
   if (!rows) {
     parts.info.truth_problem = file.string() + ": " + std::to_string(poses.size()) + " poses for " +
@@ -304,11 +336,14 @@ void take_truth_interpolated(FileLogParts& parts, const std::vector<double>& sta
 std::optional<double> parse_date_time(std::string_view text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, read = 0;
   double second = 0.0;
+  char seconds[24] = "";
   const std::string plain(text);
-  const char* const kForms[] = {"%4d-%2d-%2d %2d:%2d:%lf%n", "%4d-%2d-%2dT%2d:%2d:%lf%n"};
+  const char* const kForms[] = {"%4d-%2d-%2d %2d:%2d:%23[0-9.]%n", "%4d-%2d-%2dT%2d:%2d:%23[0-9.]%n"};
   for (const char* form : kForms) {
     read = 0;
-    if (std::sscanf(plain.c_str(), form, &year, &month, &day, &hour, &minute, &second, &read) == 6 && read > 0) {
+    if (std::sscanf(plain.c_str(), form, &year, &month, &day, &hour, &minute, seconds, &read) == 6 && read > 0) {
+      second = text::parse_number(seconds).value_or(-1.0);
+      read = second >= 0.0 ? read : 0;
       break;
     }
     read = 0;
@@ -339,6 +374,67 @@ std::optional<double> stamp_in_name(const fs::path& file) {
   }
   const auto seconds = text::parse_number(stem);
   return seconds && *seconds > 1e8 && *seconds < 1e11 ? seconds : std::nullopt;
+}
+
+namespace {
+
+/// The whole seconds and the digits behind the point of a name like 1741286117.605000000; nothing for other names.
+struct NamedTime {
+  double seconds = 0.0;
+  std::string fraction;
+};
+
+std::optional<NamedTime> named_time(const fs::path& file) {
+  const std::string stem = stem_of(file);
+  const std::size_t point = stem.find('.');
+  if (point == std::string::npos || point + 1 == stem.size()) {
+    return std::nullopt;
+  }
+  const std::string fraction = stem.substr(point + 1);
+  const auto seconds = text::parse_whole(stem.substr(0, point));
+  if (!seconds || fraction.size() > 9 || fraction.find_first_not_of("0123456789") != std::string::npos) {
+    return std::nullopt;
+  }
+  return NamedTime{static_cast<double>(*seconds), fraction};
+}
+
+/// Whether the digits behind the point count nanoseconds and were not padded to nine. Digits of one length are a
+/// decimal fraction. A program that writes fractions short leaves out their last zeros, and has no nine digits to give
+/// for seconds since 1970 (a double has seven): ends with zeros, or eight or nine digits, are whole nanoseconds.
+bool unpadded_nanoseconds(const std::vector<NamedTime>& times) {
+  std::size_t shortest = 9;
+  std::size_t longest = 0;
+  for (const NamedTime& time : times) {
+    shortest = std::min(shortest, time.fraction.size());
+    longest = std::max(longest, time.fraction.size());
+  }
+  const bool zeros_at_the_end = std::any_of(times.begin(), times.end(), [&](const NamedTime& time) {
+    return time.fraction.size() > 1 && time.fraction.size() < longest && time.fraction.back() == '0';
+  });
+  return shortest < longest && (longest > 7 || zeros_at_the_end);
+}
+
+}  // namespace
+
+std::vector<double> stamps_in_names(const std::vector<fs::path>& files) {
+  std::vector<double> stamps_s;
+  std::vector<NamedTime> named;
+  for (const fs::path& file : files) {
+    const auto stamp = stamp_in_name(file);
+    if (!stamp) {
+      return {};
+    }
+    stamps_s.push_back(*stamp);
+    if (const auto time = named_time(file)) {
+      named.push_back(*time);
+    }
+  }
+  if (named.size() == files.size() && unpadded_nanoseconds(named)) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      stamps_s[i] = named[i].seconds + 1e-9 * std::stod(named[i].fraction);
+    }
+  }
+  return stamps_s;
 }
 
 }  // namespace loopmark::io::internal

@@ -49,6 +49,10 @@ std::optional<std::vector<std::size_t>> rows_of_scans(const FileLogParts& parts,
 
 /// The stamp in a file's name: digits since 1970 in ns or us, seconds with a fraction, or a date
 /// 2021-10-26-16-21-29-468. Nothing when there is none.
+/// The times in the names of all files, seconds; nothing where a name has none. Fractions of unequal length in one
+/// folder are whole nanoseconds that nobody padded.
+std::vector<double> stamps_in_names(const std::vector<std::filesystem::path>& files);
+
 std::optional<double> stamp_in_name(const std::filesystem::path& file);
 
 /// "2011-09-26 13:02:25.951199337" or with other separators, as seconds since 1970 (UTC).

@@ -21,6 +21,7 @@ struct ScanFacts {
   double first_s = 0.0, last_s = 0.0;
   bool intensity = false;
   bool ring = false;
+  bool viewpoint = false;
   std::uint32_t checksum = 0;
 };
 
@@ -37,6 +38,7 @@ ScanFacts facts_of(const DriveLog& log, std::size_t index) {
     facts.dropped = reading.dropped;
     facts.intensity = !cloud.intensity.empty();
     facts.ring = !cloud.ring.empty();
+    facts.viewpoint = reading.has_viewpoint;
     facts.checksum = checksum_of(cloud);
     if (!cloud.time_offset_s.empty()) {
       facts.times = reading.times_rebuilt ? PointTimeSource::kRebuilt : PointTimeSource::kInFiles;
@@ -65,6 +67,7 @@ void add_usable(LogReport& report, const ScanFacts& facts) {
   report.dropped.not_finite += facts.dropped.not_finite;
   report.dropped.absurd += facts.dropped.absurd;
   report.dropped.no_return += facts.dropped.no_return;
+  report.viewpoints += facts.viewpoint ? 1 : 0;
   ++report.usable;
 }
 
@@ -117,7 +120,7 @@ SensorGuess sensor_of(const DriveLog& log, const std::vector<ScanFacts>& all) {
 LogReport examine_log(const DriveLog& log) {
   constexpr std::size_t kBlock = 32;  // between looks at the user's wish to stop
   std::vector<ScanFacts> all(log.size());
-  Progress progress("scans", log.size());
+  Progress progress("reading", "scans", log.size());
   for (std::size_t begin = 0; begin < log.size(); begin += kBlock) {
     check_interrupt();
     const std::size_t count = std::min(kBlock, log.size() - begin);
@@ -127,6 +130,9 @@ LogReport examine_log(const DriveLog& log) {
   progress.finish();
   LogReport report;
   report.info = log.info();
+  if (const RecordedLog* recorded = as_recorded(log)) {
+    report.recording = recorded->recording();
+  }
   report.scans = log.size();
   sum_up(report, all);
   std::vector<double> stamps;
@@ -141,7 +147,7 @@ LogReport examine_log(const DriveLog& log) {
 
 DatasetReport examine_dataset(const Dataset& dataset) {
   DatasetReport report{dataset.layout(), dataset.describe(), dataset.root(), {}};
-  Progress progress("drives", dataset.sessions().size());
+  Progress progress("reading", "drives", dataset.sessions().size());
   for (const SessionInfo& info : dataset.sessions()) {
     check_interrupt();
     SessionReport session;

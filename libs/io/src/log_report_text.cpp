@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // The reports of log_report.hpp in words and as JSON.
-#include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/io/log_report.hpp"
 
 namespace loopmark::io {
@@ -12,16 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-__attribute__((format(printf, 1, 2))) std::string format(const char* form, ...) {
-  char text[512];
-  va_list arguments;
-  va_start(arguments, form);
-  std::vsnprintf(text, sizeof text, form, arguments);
-  va_end(arguments);
-  return text;
-}
-
-std::string line(const char* what, const std::string& text) { return format("  %-13s", what) + text + "\n"; }
+std::string line(const char* what, const std::string& text) { return format_text("  %-13s", what) + text + "\n"; }
 
 const char* name_of(PointTimeSource source) {
   switch (source) {
@@ -38,34 +29,66 @@ const char* name_of(PointTimeSource source) {
 
 std::string scans_text(const LogReport& r) {
   std::string text = std::to_string(r.scans);
-  text += format(", %.1f s", r.stamps.duration_s);
+  text += format_text(", %.1f s", r.stamps.duration_s);
   if (r.stamps.rate_hz > 0.0) {
-    text += format(r.stamps.regular ? ", %.4g Hz" : ", irregular (median %.3g Hz: keyframes?)", r.stamps.rate_hz);
+    text += format_text(r.stamps.regular ? ", %.4g Hz" : ", irregular (median %.3g Hz: keyframes?)", r.stamps.rate_hz);
   }
   return text + ", times from " + r.info.stamps_source;
 }
 
 std::string points_text(const LogReport& r) {
-  std::string text = format("%zu a scan (%zu to %zu)", r.points_median, r.points_least, r.points_most);
+  std::string text = format_text("%zu a scan (%zu to %zu)", r.points_median, r.points_least, r.points_most);
   text += r.has_intensity ? ", with intensity" : ", without intensity";
   text += r.has_ring ? ", with ring" : "";
   const std::size_t senseless = r.dropped.not_finite + r.dropped.absurd;
   if (senseless + r.dropped.no_return > 0) {
-    text += format("; left out: %zu without echo, %zu not finite, %zu absurdly far", r.dropped.no_return,
-                   r.dropped.not_finite, r.dropped.absurd);
+    text += format_text("; left out: %zu without echo, %zu not finite, %zu absurdly far", r.dropped.no_return,
+                        r.dropped.not_finite, r.dropped.absurd);
   }
   return text;
 }
 
+/// The topic that is taken, and the others of the recording.
+std::string topics_text(const LogReport& r) {
+  if (!r.recording) {
+    return "";
+  }
+  std::string text = line("topic", r.recording->topic + ", " + r.recording->topic_reason);
+  text += line("", r.recording->topic_content);
+  for (const TopicFacts& t : r.recording->topics) {
+    const double duration = t.last_s - t.first_s;
+    const double rate = duration > 0.0 ? static_cast<double>(t.messages - 1) / duration : 0.0;
+    text += line("", format_text("%-28s %-28s %8zu messages, %.4g Hz, %.1f MB", t.topic.c_str(), t.type.c_str(), t.messages,
+                            rate, 1e-6 * static_cast<double>(t.bytes)) +
+                         (t.problem.empty() ? "" : ": " + t.problem));
+  }
+  return text;
+}
+
+Json topics_json(const LogReport& r) {
+  Json topics = Json::array();
+  for (const TopicFacts& t : r.recording->topics) {
+    topics.push_back({{"topic", t.topic},
+                      {"type", t.type},
+                      {"messages", t.messages},
+                      {"bytes", t.bytes},
+                      {"first_s", t.first_s},
+                      {"last_s", t.last_s},
+                      {"scans", t.has_scans},
+                      {"problem", t.problem}});
+  }
+  return topics;
+}
+
 std::string sensor_text(const SensorGuess& s) {
   std::string text = s.beams == 0 ? "beams cannot be told from the points"
-                                  : format("%zu beams (from the %s)", s.beams, s.beams_from.c_str());
-  text += format(", %.1f to %.1f deg, up to %.0f m", s.lowest_deg, s.highest_deg, s.farthest_m);
+                                  : format_text("%zu beams (from the %s)", s.beams, s.beams_from.c_str());
+  text += format_text(", %.1f to %.1f deg, up to %.0f m", s.lowest_deg, s.highest_deg, s.farthest_m);
   return text + (s.name.empty() ? "" : ": like a " + s.name);
 }
 
 std::string times_text(const LogReport& r) {
-  const std::string span = format("%.3f to %.3f s around the stamp", r.sweep_first_s, r.sweep_last_s);
+  const std::string span = format_text("%.3f to %.3f s around the stamp", r.sweep_first_s, r.sweep_last_s);
   switch (r.point_times) {
     case PointTimeSource::kInFiles:
       return "given for every point, " + span;
@@ -101,7 +124,7 @@ std::string list_text(const std::vector<Item>& items, const Text& item_text) {
 std::string irregularities_text(const LogReport& r) {
   const auto scan = [](std::size_t i) { return "scan " + std::to_string(i); };
   std::string text = line("gaps", list_text(r.stamps.gaps, [](const StampFacts::Gap& gap) {
-                            return format("%.2f s before scan %zu", gap.seconds, gap.before);
+                            return format_text("%.2f s before scan %zu", gap.seconds, gap.before);
                           }));
   if (!r.stamps.repeated.empty()) {
     text += line("same times", list_text(r.stamps.repeated, scan));
@@ -118,7 +141,7 @@ std::string irregularities_text(const LogReport& r) {
 
 std::string truth_text(const LogReport& r) {
   if (r.info.truth_given) {
-    return format("%s, a path of %.1f m", r.info.truth_source.c_str(), r.truth_length_m);
+    return format_text("%s, a path of %.1f m", r.info.truth_source.c_str(), r.truth_length_m);
   }
   return r.info.truth_problem.empty() ? "none" : r.info.truth_problem;
 }
@@ -141,7 +164,7 @@ Json compensation_json(const LogReport& r) {
 }  // namespace
 
 std::string next_command(const LogReport& report) {
-  if (report.usable == 0) {
+  if (report.usable == 0 || !report.frame_problem.empty()) {
     return "";
   }
   const std::string rate = report.info.stamps_given ? "" : "  (state the rate of the scans with --set log.rate_hz=...)";
@@ -151,22 +174,37 @@ std::string next_command(const LogReport& report) {
 std::string report_text(const LogReport& r) {
   std::string text = r.info.path.string() + "\n";
   text += line("format", r.info.format);
+  text += topics_text(r);
   text += line("scans", scans_text(r));
   text += line("points", points_text(r));
   text += line("sensor", sensor_text(r.sensor));
   text += line("point times", times_text(r));
   text += line("compensated", compensation_text(r));
+  text += r.viewpoints == 0
+              ? ""
+              : line("viewpoint",
+                     format_text("%zu scans have a VIEWPOINT that moves the points; it is not applied", r.viewpoints));
+  text += r.frame_problem.empty() ? "" : line("frame", r.frame_problem);
   text += irregularities_text(r);
   text += r.info.problem.empty() ? "" : line("problem", r.info.problem);
   text += line("truth", truth_text(r));
   const std::string next = next_command(r);
-  return text + line("next", next.empty() ? "no scan can be used" : next);
+  return text + line("next", !next.empty()   ? next
+                             : r.usable == 0 ? "no scan can be used"
+                                             : "bring the scans into the sensor's frame: see frame");
 }
 
 std::string report_json(const LogReport& r) {
   Json json;
   json["path"] = r.info.path.string();
   json["format"] = r.info.format;
+  if (r.recording) {
+    json["topic"] = {{"name", r.recording->topic},
+                     {"reason", r.recording->topic_reason},
+                     {"content", r.recording->topic_content},
+                     {"frame_id", r.recording->frame_id}};
+    json["topics"] = topics_json(r);
+  }
   json["scans"] = r.scans;
   json["usable"] = r.usable;
   json["points"] = {
@@ -194,8 +232,10 @@ std::string report_json(const LogReport& r) {
                    {"problem", r.info.truth_problem},
                    {"length_m", r.truth_length_m}};
   json["problem"] = r.info.problem;
+  json["viewpoints"] = r.viewpoints;
+  json["frame_problem"] = r.frame_problem;
   json["next"] = next_command(r);
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string report_text(const DatasetReport& r) {
@@ -204,7 +244,7 @@ std::string report_text(const DatasetReport& r) {
   text += line("conventions", r.description);
   std::size_t usable = 0, missing = 0;
   for (const SessionReport& session : r.sessions) {
-    const std::string name = format("session %d", session.session.number);
+    const std::string name = format_text("session %d", session.session.number);
     if (!session.session.present) {
       ++missing;
       text += line(name.c_str(), session.session.name + ": not there");
@@ -212,14 +252,15 @@ std::string report_text(const DatasetReport& r) {
       text += line(name.c_str(), session.session.name + ": " + session.problem);
     } else {
       ++usable;
-      text += line(name.c_str(), session.session.name +
-                                     format(": %zu scans, frames %zu to %zu, %zu points in the first, ", session.scans,
-                                            session.first_frame, session.last_frame, session.points) +
-                                     (session.truth_given ? "with poses" : "without poses"));
+      text +=
+          line(name.c_str(), session.session.name +
+                                 format_text(": %zu scans, frames %zu to %zu, %zu points in the first, ", session.scans,
+                                             session.first_frame, session.last_frame, session.points) +
+                                 (session.truth_given ? "with poses" : "without poses"));
     }
   }
-  text += line("sum", format("%zu drives usable, %zu not there, %zu with problems", usable, missing,
-                             r.sessions.size() - usable - missing));
+  text += line("sum", format_text("%zu drives usable, %zu not there, %zu with problems", usable, missing,
+                                  r.sessions.size() - usable - missing));
   return text + line("next", "loopmark evaluate SET --data " + r.root.string() + " -o RESULT");
 }
 
@@ -235,7 +276,7 @@ std::string report_json(const DatasetReport& r) {
                 {"points_of_first", s.points},  {"truth", s.truth_given},
                 {"problem", s.problem}};
   });
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace loopmark::io

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // PCD (point cloud data) files, version 0.7 and earlier ones.
+#include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "loopmark/text/text.hpp"
@@ -10,6 +13,12 @@
 
 namespace loopmark::io::internal {
 namespace {
+
+// What a header may promise. The product of all of them fits 64 bits, so that no size below can wrap.
+constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 32U;
+constexpr std::uint64_t kMostValues = std::uint64_t{1} << 16U;  // of one field; the largest known descriptor has 1980
+constexpr std::uint64_t kMostBytes = 8;                         // of one value
+constexpr std::size_t kMostFields = 1024;
 
 struct Field {
   std::string name;
@@ -26,6 +35,7 @@ struct Header {
   std::string data;      ///< ascii, binary, binary_compressed
   std::size_t size = 0;  ///< bytes of the header
   std::size_t lines = 0;
+  bool has_viewpoint = false;  ///< that is no identity
 
   std::size_t point_bytes() const {
     std::size_t sum = 0;
@@ -64,9 +74,9 @@ class HeaderReader {
     throw DamagedScan(file_, "line " + std::to_string(header_.lines), problem);
   }
 
-  std::size_t whole(std::string_view word) const {
+  std::size_t whole(std::string_view word, std::uint64_t most) const {
     const auto value = text::parse_whole(word);
-    if (!value || *value > (1ULL << 32U)) {
+    if (!value || *value > most) {
       fail("'" + std::string(word) + "' is no sensible number");
     }
     return static_cast<std::size_t>(*value);
@@ -82,6 +92,18 @@ class HeaderReader {
     }
   }
 
+  /// tx ty tz qw qx qy qz of a VIEWPOINT line: whether they are no identity.
+  static bool moves(const std::vector<std::string_view>& words) {
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      const double still = i == 4 ? 1.0 : 0.0;
+      const std::optional<double> value = text::parse_number(words[i]);
+      if (value && std::abs((i == 4 ? std::abs(*value) : *value) - still) > 1e-6) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   void take(const std::vector<std::string_view>& words) {
     if (words.size() < 2 || words.front().front() == '#') {
       return;
@@ -91,19 +113,24 @@ class HeaderReader {
       for (std::size_t i = 1; i < words.size(); ++i) {
         header_.fields.push_back({std::string(words[i])});
       }
+      if (header_.fields.size() > kMostFields) {
+        fail("more than " + std::to_string(kMostFields) + " fields");
+      }
     } else if (key == "SIZE") {
-      each_field(words, [this](Field& field, std::string_view word) { field.size = whole(word); });
+      each_field(words, [this](Field& field, std::string_view word) { field.size = whole(word, kMostBytes); });
     } else if (key == "TYPE") {
       each_field(words, [](Field& field, std::string_view word) { field.type = word.front(); });
     } else if (key == "COUNT") {
-      each_field(words, [this](Field& field, std::string_view word) { field.count = whole(word); });
+      each_field(words, [this](Field& field, std::string_view word) { field.count = whole(word, kMostValues); });
     } else if (key == "WIDTH") {
-      width_ = whole(words[1]);
+      width_ = whole(words[1], kMostPoints);
     } else if (key == "HEIGHT") {
-      height_ = whole(words[1]);
+      height_ = whole(words[1], kMostPoints);
     } else if (key == "POINTS") {
-      header_.points = whole(words[1]);
+      header_.points = whole(words[1], kMostPoints);
       points_said_ = true;
+    } else if (key == "VIEWPOINT") {
+      header_.has_viewpoint = moves(words);
     } else if (key == "DATA") {
       header_.data = text::lower_case(words[1]);
     }
@@ -111,6 +138,9 @@ class HeaderReader {
 
   void finish() {
     if (!points_said_) {
+      if (height_ > 0 && width_ > kMostPoints / height_) {
+        fail("WIDTH and HEIGHT promise more than " + std::to_string(kMostPoints) + " points");
+      }
       header_.points = width_ * height_;
     }
     if (header_.fields.empty()) {
@@ -184,7 +214,8 @@ PointFile decode_compressed(const Header& header, std::span<const char> body, co
   if (body.size() < sizeof sizes + sizes[0]) {
     throw_truncated(file, header.size + body.size(), header.size + sizeof sizes + sizes[0]);
   }
-  if (sizes[1] != header.point_bytes() * header.points) {
+  // LZF writes at most 264 bytes for 3.
+  if (sizes[1] != header.point_bytes() * header.points || sizes[1] / 88 > sizes[0]) {
     throw DamagedScan(file, "byte " + std::to_string(header.size + 4), "the compressed size does not fit the header");
   }
   const std::unique_ptr<char[]> plain(new char[sizes[1]]);
@@ -223,16 +254,16 @@ PointFile decode_ascii(const Header& header, std::span<const char> body, const s
 PointFile read_pcd(std::span<const char> bytes, const std::string& file, const LogOptions& options) {
   const Header header = HeaderReader(bytes, file).read();
   const std::span<const char> body = bytes.subspan(header.size);
-  if (header.data == "binary") {
-    return decode_binary(header, body, file, options);
+  const auto decode = header.data == "binary"              ? decode_binary
+                      : header.data == "binary_compressed" ? decode_compressed
+                      : header.data == "ascii"             ? decode_ascii
+                                                           : nullptr;
+  if (decode == nullptr) {
+    throw DamagedScan(file, "line " + std::to_string(header.lines), "unknown DATA '" + header.data + "'");
   }
-  if (header.data == "binary_compressed") {
-    return decode_compressed(header, body, file, options);
-  }
-  if (header.data == "ascii") {
-    return decode_ascii(header, body, file, options);
-  }
-  throw DamagedScan(file, "line " + std::to_string(header.lines), "unknown DATA '" + header.data + "'");
+  PointFile points = decode(header, body, file, options);
+  points.has_viewpoint = header.has_viewpoint;
+  return points;
 }
 
 }  // namespace loopmark::io::internal

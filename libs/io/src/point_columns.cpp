@@ -58,6 +58,13 @@ std::vector<Out> kept_values(const Column& column, std::span<const std::uint32_t
   return values;
 }
 
+/// Rings of the kept rows; none where one of them is no ring: floats and wider numbers hold what 16 bits cannot.
+std::vector<std::uint16_t> kept_rings(const Column& column, std::span<const std::uint32_t> kept) {
+  const std::vector<double> values = kept_values<double>(column, kept);
+  const bool sound = std::all_of(values.begin(), values.end(), [](double v) { return v >= 0.0 && v <= 65535.0; });
+  return sound ? std::vector<std::uint16_t>(values.begin(), values.end()) : std::vector<std::uint16_t>();
+}
+
 /// Sorts out one point; true when it is kept.
 bool usable(const Eigen::Vector3f& p, float max_range, DroppedPoints& dropped) {
   const float squared = p.squaredNorm();
@@ -69,6 +76,9 @@ bool usable(const Eigen::Vector3f& p, float max_range, DroppedPoints& dropped) {
   } else if (!p.allFinite()) {
     ++dropped.not_finite;
   } else {
+    const auto range_m = static_cast<double>(p.norm());
+    dropped.nearest_absurd_m = dropped.absurd == 0 ? range_m : std::min(dropped.nearest_absurd_m, range_m);
+    dropped.farthest_absurd_m = std::max(dropped.farthest_absurd_m, range_m);
     ++dropped.absurd;
   }
   return false;
@@ -114,6 +124,20 @@ void keep_usable_mixed(const PointColumns& columns, float max_range, PointFile& 
 
 bool coordinates_are(const PointColumns& columns, NumberType type) {
   return columns.x.type == type && columns.y.type == type && columns.z.type == type;
+}
+
+/// Copies the usable points' coordinates; returns their rows.
+std::vector<std::uint32_t> take_usable(const PointColumns& columns, const LogOptions& options, PointFile& file) {
+  std::vector<std::uint32_t> kept;
+  const auto max_range = static_cast<float>(options.max_range_m);
+  if (coordinates_are(columns, NumberType::kFloat32)) {
+    keep_usable<float>(columns, max_range, file, kept);
+  } else if (coordinates_are(columns, NumberType::kFloat64)) {
+    keep_usable<double>(columns, max_range, file, kept);
+  } else {
+    keep_usable_mixed(columns, max_range, file, kept);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -166,30 +190,29 @@ PointCloud filter_invalid(PointCloud cloud, const LogOptions& options, DroppedPo
   return kept.size() == cloud.size() ? std::move(cloud) : select(cloud, kept);
 }
 
-PointFile decode_points(const PointColumns& columns, const LogOptions& options) {
+PointFile decode_points(const PointColumns& columns, const LogOptions& options, const TimeRule* rule) {
   PointFile file;
-  std::vector<std::uint32_t> kept;
-  const auto max_range = static_cast<float>(options.max_range_m);
-  if (coordinates_are(columns, NumberType::kFloat32)) {
-    keep_usable<float>(columns, max_range, file, kept);
-  } else if (coordinates_are(columns, NumberType::kFloat64)) {
-    keep_usable<double>(columns, max_range, file, kept);
-  } else {
-    keep_usable_mixed(columns, max_range, file, kept);
-  }
+  const std::vector<std::uint32_t> kept = take_usable(columns, options, file);
   if (!columns.intensity.empty()) {
     file.cloud.intensity = kept_values<float>(columns.intensity, kept);
   }
   if (!columns.ring.empty()) {
-    file.cloud.ring = kept_values<std::uint16_t>(columns.ring, kept);
+    file.cloud.ring = kept_rings(columns.ring, kept);
   }
   if (!columns.time.empty()) {
     const bool fraction = columns.time.type == NumberType::kFloat32 || columns.time.type == NumberType::kFloat64;
-    PointTimes times = interpret_times(kept_values<double>(columns.time, kept), fraction);
+    const std::vector<double> values = kept_values<double>(columns.time, kept);
+    PointTimes times = rule != nullptr ? apply_time_rule(*rule, values) : interpret_times(values, fraction);
     file.cloud.time_offset_s = std::move(times.offset_s);
     file.first_time_s = times.first_s;
   }
   return file;
+}
+
+std::vector<double> times_of_usable_points(const PointColumns& columns, const LogOptions& options) {
+  PointFile file;
+  const std::vector<std::uint32_t> kept = take_usable(columns, options, file);
+  return kept_values<double>(columns.time, kept);
 }
 
 }  // namespace loopmark::io::internal

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "loopmark/io/point_files.hpp"
+#include "time_rule.hpp"
 
 namespace loopmark::io::internal {
 
@@ -34,8 +35,13 @@ struct PointColumns {
 /// The column that a field of this name fills ("i" -> intensity); nullptr for an unknown name.
 Column* column_for_field(PointColumns& columns, std::string_view field_name);
 
-/// Copies what is usable. Times become seconds (see interpret_times).
-PointFile decode_points(const PointColumns& columns, const LogOptions& options);
+/// Copies what is usable. Times become seconds: by the rule where there is one (it is known from other scans of the
+/// log too), else by the scan itself (see interpret_times).
+PointFile decode_points(const PointColumns& columns, const LogOptions& options, const TimeRule* rule = nullptr);
+
+/// The values of the time column, of the points that decode_points keeps only: drivers leave the times of points
+/// without echo unset.
+std::vector<double> times_of_usable_points(const PointColumns& columns, const LogOptions& options);
 
 /// The cloud without its senseless points, which are counted.
 PointCloud filter_invalid(PointCloud cloud, const LogOptions& options, DroppedPoints& dropped);

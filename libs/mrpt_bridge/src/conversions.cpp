@@ -53,11 +53,16 @@ PointCloud from_velodyne(const CObservationVelodyneScan& observation) {
     points = &generated.point_cloud;
   }
   PointCloud cloud;
-  const std::size_t count = points->size();
+  const std::size_t count = points->x.size();
+  if (points->y.size() != count || points->z.size() != count) {
+    throw std::runtime_error("the numbers of x, y and z coordinates differ");
+  }
   for (std::size_t i = 0; i < count; ++i) {
     cloud.points.emplace_back(points->x[i], points->y[i], points->z[i]);
   }
-  cloud.intensity.assign(points->intensity.begin(), points->intensity.end());
+  if (points->intensity.size() == count) {
+    cloud.intensity.assign(points->intensity.begin(), points->intensity.end());
+  }
   if (points->laser_id.size() == count) {
     cloud.ring.assign(points->laser_id.begin(), points->laser_id.end());
   }

@@ -39,9 +39,10 @@ struct LogInfo {
 
 /// Points that a reader left out, by reason.
 struct DroppedPoints {
-  std::size_t not_finite = 0;  ///< NaN or infinite coordinates
-  std::size_t absurd = 0;      ///< farther than LogOptions::max_range_m
-  std::size_t no_return = 0;   ///< exactly (0, 0, 0): how many drivers write a beam without echo
+  std::size_t not_finite = 0;                              ///< NaN or infinite coordinates
+  std::size_t absurd = 0;                                  ///< farther than LogOptions::max_range_m
+  double nearest_absurd_m = 0.0, farthest_absurd_m = 0.0;  ///< of these
+  std::size_t no_return = 0;  ///< exactly (0, 0, 0): how many drivers write a beam without echo
 };
 
 /// A scan with what reading it showed.
@@ -50,6 +51,7 @@ struct ScanReading {
   DroppedPoints dropped;
   bool times_in_file = false;  ///< per-point times came from the file
   bool times_rebuilt = false;  ///< per-point times were rebuilt from the azimuth
+  bool has_viewpoint = false;  ///< the file's header moves the points (PCD: VIEWPOINT); the motion is not applied
 };
 
 /// A drive log: its scans in order. Reading is thread-safe and keeps nothing in memory.
@@ -65,7 +67,7 @@ class DriveLog {
   /// Reads scan `index`. Throws DamagedScan naming the file, the place and the problem.
   virtual Scan read(std::size_t index) const = 0;
   /// The same with what reading it showed.
-  virtual ScanReading read_closely(std::size_t index) const { return {read(index), {}, false, false}; }
+  virtual ScanReading read_closely(std::size_t index) const { return {read(index), {}, false, false, false}; }
   /// The scan's own number where the log counts otherwise than from 0 without gaps (its file's name).
   virtual std::size_t frame_number(std::size_t index) const { return index; }
   virtual const LogInfo& info() const = 0;
@@ -82,7 +84,7 @@ struct LogOptions {
   std::string sensor_label;     ///< rawlogs: only observations with this label; empty: the first found
   std::size_t min_points = 50;  ///< a scan with fewer usable points is damaged
   double max_range_m = 1000.0;  ///< points beyond are left out as absurd
-  std::size_t bin_columns = 0;  ///< float32 values a point in .bin files; 0: 4, and 5 in .pcd.bin
+  std::size_t bin_columns = 0;  ///< float32 values a point in .bin files; 0: as they show, else 4, and 5 in .pcd.bin
   RebuildTimes rebuild_times = RebuildTimes::kAuto;  ///< auto: where the log says how its sensor sweeps
 };
 
@@ -94,7 +96,8 @@ void describe(Visitor& v, LogOptions& o) {
   v.field("sensor_label", o.sensor_label, "rawlogs: only observations with this label; empty: the first found");
   v.field("min_points", o.min_points, "a scan with fewer usable points is damaged");
   v.field("max_range_m", o.max_range_m, "points beyond this range are left out as absurd, metres");
-  v.field("bin_columns", o.bin_columns, "float32 values a point in .bin files; 0: 4, and 5 in .pcd.bin");
+  v.field("bin_columns", o.bin_columns,
+          "float32 values a point in .bin files; 0: as they show, else 4, and 5 in .pcd.bin");
   v.choice("rebuild_times", o.rebuild_times,
            {{"auto", RebuildTimes::kAuto},
             {"never", RebuildTimes::kNever},

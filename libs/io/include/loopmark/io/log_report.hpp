@@ -10,6 +10,7 @@
 
 #include "loopmark/io/dataset.hpp"
 #include "loopmark/io/drive_log.hpp"
+#include "loopmark/io/recorded_log.hpp"
 
 namespace loopmark::io {
 
@@ -50,12 +51,14 @@ enum class PointTimeSource { kMissing, kInFiles, kRebuilt, kMixed };
 /// Everything about one log.
 struct LogReport {
   LogInfo info;
+  std::optional<RecordingFacts> recording;  ///< of bags, MCAP files and captures
   std::size_t scans = 0;
   std::size_t usable = 0;
   std::size_t points_least = 0, points_median = 0, points_most = 0;  ///< a usable scan
   bool has_intensity = false;
   bool has_ring = false;
-  DroppedPoints dropped;  ///< sum over all scans
+  std::size_t viewpoints = 0;  ///< scans whose file has a VIEWPOINT that is not applied
+  DroppedPoints dropped;       ///< sum over all scans
   PointTimeSource point_times = PointTimeSource::kMissing;
   double sweep_first_s = 0.0, sweep_last_s = 0.0;  ///< median range of the points' times around the stamp
   StampFacts stamps;
@@ -64,6 +67,7 @@ struct LogReport {
   std::vector<std::size_t> copies;  ///< scans with the very points of the scan before
   double truth_length_m = 0.0;      ///< length of the reference path
   std::string compensation;         ///< what was measured about motion compensation; empty: not measured
+  std::string frame_problem;        ///< why the scans seem to be in no sensor's frame; empty: nothing speaks for it
 };
 
 /// Reads every scan of the log once, in parallel, and changes nothing. Throws Interrupted; damaged

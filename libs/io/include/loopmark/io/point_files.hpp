@@ -20,12 +20,14 @@ struct PointFile {
   PointCloud cloud;                    ///< time_offset_s: as in the file, or since first_time_s
   std::optional<double> first_time_s;  ///< where the file has absolute times: the earliest, seconds
   DroppedPoints dropped;
+  bool has_viewpoint = false;  ///< a PCD's VIEWPOINT that is no identity: it is not applied to the points
 };
 
 /// Reads a .bin, .pcd.bin, .pcd (ascii, binary, binary_compressed) or .ply (ascii, binary little endian) file.
 /// Field names known: x y z, intensity (i, reflectivity), ring (laser_id, channel, line), t (time, timestamp,
 /// time_stamp, offset_time) in seconds, ms, us or ns, relative or since 1970 (told apart by their size).
-/// Throws DamagedScan naming the file, the byte or line and the problem.
+/// A ring channel with a value that is no number from 0 to 65535 is left out.
+/// Throws DamagedScan naming the file, the byte or line and the problem; a file above 1 GiB is none of a scan.
 PointFile read_point_file(const std::filesystem::path& path, const LogOptions& options = {});
 
 /// Writes float32 x y z intensity (0 where the cloud has none), the layout of KITTI's velodyne folders.

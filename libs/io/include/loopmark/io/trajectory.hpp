@@ -29,6 +29,13 @@ void write_kitti(const std::filesystem::path& path, const std::vector<Pose>& pos
 /// skipped. Throws InputError with the line that is wrong.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
+/// The pose of every scan. Poses with times (TUM) are joined by time, in whatever order and at whatever rate they
+/// stand: the one of the scan's time, or between two neighbours not more than 0.5 s apart. Poses without times (KITTI)
+/// must be as many as the scans. Throws InputError naming `source` where there is no pose, or none for some of the
+/// scans.
+std::vector<Pose> poses_of_scans(const Trajectory& trajectory, const std::vector<double>& stamps_s,
+                                 const std::string& source);
+
 /// Sets of poses with different stamps: the pose at `stamp_s`, interpolated between its neighbours. Outside
 /// the range the nearest end holds. `trajectory` is not empty and its stamps rise.
 Pose pose_at(const Trajectory& trajectory, double stamp_s);
