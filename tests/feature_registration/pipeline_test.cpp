@@ -90,7 +90,8 @@ TEST(PaperPipelineSteps, SameBytesAtAnyNumberOfThreads) {
 
 TEST(PaperPipelineSteps, DescriptorsMayComeFromElsewhere) {
   const Yard yard = make_yard();
-  const FeatureRegistrationOptions options = named_algorithm("ransac_mutual");
+  FeatureRegistrationOptions options = named_algorithm("ransac_mutual");
+  options.descriptor = "fpfh";  // keypoints on the surface: they serve the refinement
   const DescribedScan own_source = describe_scan(yard.source, options);
   const DescribedScan own_target = describe_scan(yard.target, options);
   const DescribedScan source = described_scan(own_source.keypoints, own_source.descriptors, yard.source, options);

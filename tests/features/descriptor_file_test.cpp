@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/storage/files.hpp"
@@ -83,6 +84,10 @@ const std::string kPoints = npy("<f8", "(2, 3)", bytes_of<double>({1, 2, 3, 4, 5
 const std::string kFeatures = npy("<f4", "(2, 4)", bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8}));
 const std::string kRaw = npy("<f8", "(3, 3)", bytes_of<double>({9, 9, 9, 9, 9, 9, 9, 9, 9}));
 
+const search::DescriptorMatrix& floats(const DescriptorFile& file) {
+  return std::get<search::DescriptorMatrix>(file.descriptors);
+}
+
 TEST(DescriptorFile, ReadsWhatFcgfExports) {
   for (const bool compress : {false, true}) {
     const auto path =
@@ -90,7 +95,7 @@ TEST(DescriptorFile, ReadsWhatFcgfExports) {
     const DescriptorFile file = read_descriptors(path);
     ASSERT_EQ(file.points.size(), 2U);
     EXPECT_EQ(file.points[1], Eigen::Vector3f(4, 5, 6));
-    EXPECT_EQ(file.descriptors.row(1), Eigen::RowVector4f(5, 6, 7, 8));
+    EXPECT_EQ(floats(file).row(1), Eigen::RowVector4f(5, 6, 7, 8));
   }
 }
 
@@ -103,21 +108,49 @@ TEST(DescriptorFile, TakesThePointsThatFitTheDescriptors) {
 TEST(DescriptorFile, ReadsTwoNpyFilesInEitherOrder) {
   const std::string fortran = npy("<f4", "(2, 4)", bytes_of<float>({1, 5, 2, 6, 3, 7, 4, 8}), true);
   const DescriptorFile file = read_descriptors(write("f.npy", fortran), write("p.npy", kPoints));
-  EXPECT_EQ(file.descriptors.row(0), Eigen::RowVector4f(1, 2, 3, 4));
+  EXPECT_EQ(floats(file).row(0), Eigen::RowVector4f(1, 2, 3, 4));
 }
 
 TEST(DescriptorFile, ReadsOtherTypesOfNumbers) {
   const auto points = write("p.npy", kPoints);
   const std::string half = bytes_of<std::uint16_t>({0x3C00, 0x4000, 0xC000, 0x3800});  // 1, 2, -2, 0.5
-  EXPECT_EQ(read_descriptors(write("h.npy", npy("<f2", "(2, 2)", half)), points).descriptors.row(1),
+  EXPECT_EQ(floats(read_descriptors(write("h.npy", npy("<f2", "(2, 2)", half)), points)).row(1),
             Eigen::RowVector2f(-2, 0.5F));
-  EXPECT_EQ(read_descriptors(write("u.npy", npy("|u1", "(2, 1)", "\x07\xFF")), points).descriptors(1, 0), 255.0F);
+  EXPECT_EQ(floats(read_descriptors(write("u.npy", npy("|u1", "(2, 1)", "\x07\xFF")), points))(1, 0), 255.0F);
+  const DescriptorFile whole = read_descriptors(write("i.npy", npy("|i1", "(2, 1)", "\x07\x81")), points);
+  EXPECT_EQ(std::get<search::QuantizedDescriptors>(whole.descriptors)(1, 0), -127);
 }
 
 void expect_complaint(const std::string& content, const std::string& part) {
   const auto path = write("bad.npz", content);
   EXPECT_THAT([&] { read_descriptors(path); }, ThrowsMessage<InputError>(HasSubstr("bad.npz")));
   EXPECT_THAT([&] { read_descriptors(path); }, ThrowsMessage<InputError>(HasSubstr(part)));
+}
+
+/// The archive with the place of a member's data in the directory moved to that of the first.
+std::string sharing_one_stream(std::size_t members, const std::string& content) {
+  const std::string first = zip({{"a00.npy", content}}, true);
+  const std::size_t directory = first.find("PK\1\2");
+  const std::size_t end = first.find("PK\5\6");
+  std::string entries;
+  for (std::size_t i = 0; i < members; ++i) {
+    std::string entry = first.substr(directory, end - directory);
+    entry[47] = static_cast<char>('0' + i / 10);
+    entry[48] = static_cast<char>('0' + i % 10);
+    entries += entry;
+  }
+  return first.substr(0, directory) + entries + "PK\5\6" + number(0, 4) + number(members, 2) + number(members, 2) +
+         number(entries.size(), 4) + number(directory, 4) + number(0, 2);
+}
+
+TEST(DescriptorFile, MembersThatShareTheirBytesAreRefused) {
+  expect_complaint(sharing_one_stream(60, std::string(1U << 20U, '\0')), "overlap");
+}
+
+TEST(DescriptorFile, AnArchiveThatUnpacksToTooMuchIsRefused) {
+  std::string claims = zip({{"features.npy", std::string(1U << 20U, '\0')}}, true);
+  claims.replace(claims.find("PK\1\2") + 24, 4, number(std::uint64_t{1} << 30U, 4));
+  expect_complaint(claims, "more than 512 MiB");
 }
 
 TEST(DescriptorFile, SaysWhatIsWrong) {
@@ -132,6 +165,10 @@ TEST(DescriptorFile, SaysWhatIsWrong) {
   expect_complaint(with("not numpy at all"), "not a NumPy array");
   expect_complaint(with(npy("<f4", "(2, 4)", "short")), "cut off");
   expect_complaint(with(npy("<f4", "(8,)", bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8}))), "two dimensions");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  expect_complaint(with(npy("<f4", "(2, 2)", bytes_of<float>({1, 2, 3, nan}))),
+                   "row 1 holds a number that is not finite");
+  expect_complaint(with(npy("|i1", "(2, 1)", "\x07\x80")), "-128");
   expect_complaint(with(npy(">f4", "(2, 1)", "12345678")), "big-endian");
   expect_complaint(with(npy("<c8", "(2, 1)", "1234567812345678")), "not known");
   expect_complaint(with(npy("<f4", "(999999999999, 999999)", "")), "cut off");
@@ -145,7 +182,7 @@ TEST(DescriptorFile, NoDamageGoesUnnoticedOrBreaksTheReader) {
       try {
         const DescriptorFile file = read_descriptors(write("fuzz.npz", bad));
         // Only fields that the reader does not need may have changed.
-        EXPECT_EQ(file.descriptors.row(1), Eigen::RowVector4f(5, 6, 7, 8)) << "byte " << i;
+        EXPECT_EQ(floats(file).row(1), Eigen::RowVector4f(5, 6, 7, 8)) << "byte " << i;
       } catch (const InputError&) {
       }
     }

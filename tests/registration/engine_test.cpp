@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/random.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::registration {
 namespace {
@@ -185,6 +187,45 @@ TEST_F(Engine, VerifyTellsRightFromWrong) {
   const PreparedScan target = prepared(a, 2);
   EXPECT_TRUE(verify_motion(source, target, a.inverse() * b, options_).answered);
   EXPECT_FALSE(verify_motion(source, target, standing_at(-9, 14, 77), options_).answered);
+}
+
+TEST_F(Engine, PreparedScansWithPosesOrSharesThatAreNoneAreRefused) {
+  const std::string good = prepared(standing_at(0, 0, 0), 1).to_bytes();
+  ASSERT_NO_THROW(PreparedScan::from_bytes(good));
+  const auto with_double = [&](std::size_t at, double value) {
+    std::string bytes = good;
+    std::memcpy(bytes.data() + at, &value, sizeof value);
+    const std::uint32_t checksum = storage::crc32(std::string_view(bytes).substr(12));
+    std::memcpy(bytes.data() + 8, &checksum, sizeof checksum);
+    return bytes;
+  };
+  ASSERT_NO_THROW(PreparedScan::from_bytes(with_double(12 + 3 * 8, 0.25)));  // x of T_level_sensor
+  EXPECT_THROW(PreparedScan::from_bytes(with_double(12, std::nan(""))), InputError);
+  EXPECT_THROW(PreparedScan::from_bytes(with_double(12, 2.0)), InputError);
+  EXPECT_THROW(PreparedScan::from_bytes(with_double(12 + 3 * 8, 0x1p40)), InputError);
+  EXPECT_THROW(PreparedScan::from_bytes(with_double(12 + 12 * 8, -0.5)), InputError);
+}
+
+TEST_F(Engine, EachSourceOfHypothesesFindsTheMotionByItself) {
+  const Pose a = standing_at(0, 0, 0);
+  const Pose b = standing_at(7, -5, 110, 2, -1);
+  for (const char* source : {kFeatures, kBev}) {
+    EngineOptions alone = options_;
+    alone.sources = {source};
+    const RegistrationResult result = register_scans(prepared(b, 1), prepared(a, 2), alone);
+    EXPECT_LT(pose_error(result.T_target_source, a.inverse() * b).translation_m, 0.2) << source;
+    EXPECT_TRUE(result.answered) << source << " " << result.p_correct;
+    ASSERT_FALSE(result.modes.empty());
+    EXPECT_EQ(result.modes.front().origin, source);
+  }
+}
+
+TEST_F(Engine, RefusesSourcesThatItDoesNotKnow) {
+  EngineOptions wrong = options_;
+  wrong.sources = {"sonar"};
+  EXPECT_THROW(register_scans(prepared(standing_at(0, 0, 0), 1), prepared(standing_at(1, 0, 0), 2), wrong), InputError);
+  wrong.sources.clear();
+  EXPECT_THROW(check(wrong), InputError);
 }
 
 }  // namespace

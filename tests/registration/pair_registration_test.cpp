@@ -63,7 +63,7 @@ class Oracle : public PairRegistration {
   std::string name_ = "oracle";
   Pose answer_;
   bool answered_;
-  PairRegistrationPtr engine_ = engine_registration({});
+  PairRegistrationPtr engine_ = engine_registration(EngineOptions());
 };
 
 TEST(EngineRegistration, IsTheEngine) {

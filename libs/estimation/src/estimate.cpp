@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "loopmark/core/number_text.hpp"
+
 namespace loopmark::estimation {
 
 const char* to_string(EstimateStop stop) {
@@ -23,10 +25,8 @@ const char* to_string(EstimateStop stop) {
 }
 
 std::string Estimate::summary() const {
-  char line[160];
-  std::snprintf(line, sizeof line, "%s: %zu inliers, score %.1f, %zu iterations, %zu models, %zu scored, %.4f s",
-                to_string(stop), inliers.size(), score, iterations, models, scored, seconds);
-  return line;
+  return format_text("%s: %zu inliers, score %.1f, %zu iterations, %zu models, %zu scored, %.4f s", to_string(stop),
+                     inliers.size(), score, iterations, models, scored, seconds);
 }
 
 }  // namespace loopmark::estimation

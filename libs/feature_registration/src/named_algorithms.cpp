@@ -48,7 +48,9 @@ FeatureRegistrationOptions sc2() {
   return o;
 }
 
+/// Of FPFH only: the other descriptors leave the ground out by themselves.
 FeatureRegistrationOptions without_ground(FeatureRegistrationOptions o) {
+  o.descriptor = "fpfh";
   o.match_ground = false;
   return o;
 }
@@ -65,11 +67,12 @@ std::vector<NamedAlgorithm> make_table() {
       {"gnc_core", "GNC-TLS after the maximum k-core (KISS-Matcher family)", "",
        gnc(estimation::Pruning::kMaximumCore)},
       {"sc2", "second-order spatial consistency (PointDSC without what is learned)", "", sc2()},
-      {"ransac_gpf_no_ground", "RANSAC (GPF(2)), ground left out of the matching", "", without_ground(gpf(2.0))},
-      {"ransac_mutual_no_ground", "RANSAC (mutual), ground left out", "", without_ground(mutual())},
-      {"gnc_clique_no_ground", "GNC-TLS after a clique, ground left out", "",
+      {"ransac_gpf_no_ground", "RANSAC (GPF(2)) on FPFH, ground left out of the matching", "",
+       without_ground(gpf(2.0))},
+      {"ransac_mutual_no_ground", "RANSAC (mutual) on FPFH, ground left out", "", without_ground(mutual())},
+      {"gnc_clique_no_ground", "GNC-TLS after a clique on FPFH, ground left out", "",
        without_ground(gnc(estimation::Pruning::kClique))},
-      {"sc2_no_ground", "spatial consistency, ground left out", "", without_ground(sc2())},
+      {"sc2_no_ground", "spatial consistency on FPFH, ground left out", "", without_ground(sc2())},
       {"ransac_uniform", "uniform sampling, ELC, LO", "roles", roles(kUniform, kElc, kLo)},
       {"ransac_sprt", "PROSAC, SPRT, LO", "roles", roles(kProsac, estimation::Rejection::kSprt, kLo)},
       {"ransac_uniform_sprt", "uniform sampling, SPRT, LO", "roles",

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "loopmark/cloud/voxel.hpp"
+#include "loopmark/core/error.hpp"
+#include "loopmark/feature_registration/descriptor.hpp"
 
 namespace loopmark::feature_registration {
 namespace {
@@ -46,19 +48,23 @@ std::vector<Eigen::Vector3f> downsample(const PointCloud& cloud, const FeatureRe
   return kept;
 }
 
-/// The points that take part in matching: with a normal and, if wanted, above the ground.
-std::vector<std::size_t> matched_points(const refinement::Surface& surface, const FeatureRegistrationOptions& options) {
-  std::vector<bool> left_out(surface.points.size(), false);
-  if (!options.match_ground) {
-    left_out = features::ground_points(surface.points, surface.normals, options.ground);
-  }
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < surface.points.size(); ++i) {
-    if (!left_out[i] && !surface.normals[i].isZero()) {
-      kept.push_back(i);
-    }
-  }
-  return kept;
+struct RowsShape {
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+  bool quantized = false;
+};
+
+RowsShape shape_of(const search::DescriptorRows& descriptors) {
+  return std::visit(
+      [&](const auto& rows) {
+        return RowsShape{static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols()),
+                         std::holds_alternative<search::QuantizedDescriptors>(descriptors)};
+      },
+      descriptors);
+}
+
+bool refinement_wants_normals(const FeatureRegistrationOptions& options) {
+  return options.refine && options.icp.metric != refinement::IcpMetric::kPointToPoint;
 }
 
 matching::Correspondences filter_matches(const matching::Correspondences& matches,
@@ -94,37 +100,54 @@ estimation::Estimate estimate_motion(const estimation::PointPairs& pairs, const 
 
 DescribedScan describe_scan(const PointCloud& cloud, const FeatureRegistrationOptions& options) {
   check(options);
+  const std::unique_ptr<Descriptor> descriptor = make_descriptor(options);
   DescribedScan scan;
   scan.surface.points = timed(scan.timings, "downsample", [&] { return downsample(cloud, options); });
-  scan.surface.normals = timed(scan.timings, "normals", [&] {
-    return features::estimate_normals(scan.surface.points, options.normals).vectors;
-  });
-  scan.descriptors = timed(scan.timings, "descriptors", [&] {
-    const std::vector<std::size_t> matched = matched_points(scan.surface, options);
-    for (const std::size_t i : matched) {
-      scan.keypoints.push_back(scan.surface.points[i]);
-    }
-    return matched.empty() ? search::DescriptorMatrix(0, features::kFpfhDimension)
-                           : features::fpfh(scan.surface.points, scan.surface.normals, options.fpfh, matched);
-  });
+  if (descriptor->needs_normals() || refinement_wants_normals(options)) {
+    scan.surface.normals = timed(scan.timings, "normals", [&] {
+      return features::estimate_normals(scan.surface.points, options.normals).vectors;
+    });
+  }
+  LocalFeatures features =
+      timed(scan.timings, "descriptors", [&] { return descriptor->describe(cloud, scan.surface); });
+  scan.keypoints = std::move(features.points);
+  scan.descriptors = std::move(features.descriptors);
   return scan;
 }
 
-DescribedScan described_scan(std::vector<Eigen::Vector3f> keypoints, search::DescriptorMatrix descriptors,
+DescribedScan described_scan(std::vector<Eigen::Vector3f> keypoints, search::DescriptorRows descriptors,
                              const PointCloud& cloud, const FeatureRegistrationOptions& options) {
   check(options);
-  if (static_cast<Eigen::Index>(keypoints.size()) != descriptors.rows()) {
+  if (shape_of(descriptors).rows != keypoints.size()) {
     throw std::invalid_argument("described_scan: as many keypoints as descriptors are needed");
   }
   DescribedScan scan;
   scan.surface.points =
       timed(scan.timings, "downsample", [&] { return cloud.empty() ? keypoints : downsample(cloud, options); });
-  scan.surface.normals = timed(scan.timings, "normals", [&] {
-    return features::estimate_normals(scan.surface.points, options.normals).vectors;
-  });
+  if (refinement_wants_normals(options)) {
+    scan.surface.normals = timed(scan.timings, "normals", [&] {
+      return features::estimate_normals(scan.surface.points, options.normals).vectors;
+    });
+  }
   scan.keypoints = std::move(keypoints);
   scan.descriptors = std::move(descriptors);
   return scan;
+}
+
+void require_comparable(const DescribedScan& source, const std::string& source_origin, const DescribedScan& target,
+                        const std::string& target_origin) {
+  const RowsShape a = shape_of(source.descriptors);
+  const RowsShape b = shape_of(target.descriptors);
+  if (a.rows == 0 || b.rows == 0 || (a.columns == b.columns && a.quantized == b.quantized)) {
+    return;
+  }
+  const auto named = [](const RowsShape& shape) {
+    return std::to_string(shape.columns) + (shape.quantized ? " whole numbers" : " numbers");
+  };
+  throw InputError(
+      source_origin, "",
+      "has descriptors of " + named(a) + ", " + target_origin + " of " + named(b) + ": they cannot be compared",
+      "describe both scans alike");
 }
 
 ScanMatches match_described(const DescribedScan& source, const DescribedScan& target) {

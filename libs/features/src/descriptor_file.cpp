@@ -26,8 +26,25 @@ std::string listed(const std::map<std::string, std::string>& members) {
   return names.empty() ? "nothing" : names;
 }
 
-DescriptorFile joined(const search::DescriptorMatrix& points, search::DescriptorMatrix descriptors,
-                      const std::string& file) {
+/// An array and whether its numbers are of int8.
+struct Array {
+  search::DescriptorMatrix numbers;
+  bool whole = false;
+};
+
+Array parsed(std::string_view bytes, const std::string& file, const std::string& name) {
+  return {internal::parse_npy(bytes, file, name), internal::is_int8(bytes)};
+}
+
+search::QuantizedDescriptors quantized(const search::DescriptorMatrix& numbers, const std::string& file) {
+  if ((numbers.array() < -127.0F).any()) {
+    throw InputError(file, "", "quantised descriptors hold -128", "round to whole numbers from -127 to 127");
+  }
+  return numbers.cast<std::int8_t>();
+}
+
+DescriptorFile joined(const search::DescriptorMatrix& points, Array array, const std::string& file) {
+  search::DescriptorMatrix& descriptors = array.numbers;
   if (points.cols() != 3) {
     throw InputError(file, "points", "have " + std::to_string(points.cols()) + " columns instead of 3");
   }
@@ -40,7 +57,11 @@ DescriptorFile joined(const search::DescriptorMatrix& points, search::Descriptor
   for (Eigen::Index r = 0; r < points.rows(); ++r) {
     out.points.emplace_back(points.row(r).transpose());
   }
-  out.descriptors = std::move(descriptors);
+  if (array.whole) {
+    out.descriptors = quantized(descriptors, file);
+  } else {
+    out.descriptors = std::move(descriptors);
+  }
   return out;
 }
 
@@ -49,11 +70,11 @@ DescriptorFile joined(const search::DescriptorMatrix& points, search::Descriptor
 DescriptorFile read_descriptors(const std::filesystem::path& npz) {
   const std::string file = npz.string();
   const std::map<std::string, std::string> members = internal::unzip(storage::read_file(npz), file);
-  const auto array = [&](const std::string& name) -> std::optional<search::DescriptorMatrix> {
+  const auto array = [&](const std::string& name) -> std::optional<Array> {
     const auto found = members.find(name + ".npy");
-    return found == members.end() ? std::nullopt : std::optional(internal::parse_npy(found->second, file, name));
+    return found == members.end() ? std::nullopt : std::optional(parsed(found->second, file, name));
   };
-  std::optional<search::DescriptorMatrix> descriptors;
+  std::optional<Array> descriptors;
   for (const char* name : kDescriptorNames) {
     descriptors = descriptors ? descriptors : array(name);
   }
@@ -64,9 +85,12 @@ DescriptorFile read_descriptors(const std::filesystem::path& npz) {
   // FCGF stores the raw cloud as "points" beside the downsampled one: the array with as many rows is meant.
   std::optional<search::DescriptorMatrix> points;
   for (const char* name : kPointNames) {
-    std::optional<search::DescriptorMatrix> candidate = array(name);
-    const bool fits = candidate && candidate->cols() == 3 && candidate->rows() == descriptors->rows();
-    points = fits || !points ? (candidate ? candidate : points) : points;
+    const std::optional<Array> candidate = array(name);
+    const bool fits =
+        candidate && candidate->numbers.cols() == 3 && candidate->numbers.rows() == descriptors->numbers.rows();
+    if (candidate && (fits || !points)) {
+      points = candidate->numbers;
+    }
     if (fits) {
       break;
     }
@@ -79,8 +103,7 @@ DescriptorFile read_descriptors(const std::filesystem::path& npz) {
 }
 
 DescriptorFile read_descriptors(const std::filesystem::path& descriptors_npy, const std::filesystem::path& points_npy) {
-  search::DescriptorMatrix descriptors =
-      internal::parse_npy(storage::read_file(descriptors_npy), descriptors_npy.string(), "");
+  Array descriptors = parsed(storage::read_file(descriptors_npy), descriptors_npy.string(), "");
   return joined(internal::parse_npy(storage::read_file(points_npy), points_npy.string(), ""), std::move(descriptors),
                 descriptors_npy.string());
 }

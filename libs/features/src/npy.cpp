@@ -82,6 +82,15 @@ void convert(std::string_view bytes, const Header& header, search::DescriptorMat
   }
 }
 
+void require_finite(const search::DescriptorMatrix& numbers, const Complaint& fail) {
+  for (Eigen::Index r = 0; r < numbers.rows(); ++r) {
+    if (!numbers.row(r).allFinite()) {
+      fail("row " + std::to_string(r) + " holds a number that is not finite",
+           "leave out the points that could not be described");
+    }
+  }
+}
+
 }  // namespace
 
 search::DescriptorMatrix parse_npy(std::string_view bytes, const std::string& file, const std::string& place) {
@@ -106,10 +115,20 @@ search::DescriptorMatrix parse_npy(std::string_view bytes, const std::string& fi
     convert<std::int64_t>(bytes, header, out);
   } else if (type == "u1") {
     convert<std::uint8_t>(bytes, header, out);
+  } else if (type == "i1") {
+    convert<std::int8_t>(bytes, header, out);
   } else {
     fail("numbers of type " + type + " are not known", "save it as float32");
   }
+  require_finite(out, fail);
   return out;
+}
+
+bool is_int8(std::string_view npy) {
+  const std::string nowhere;
+  const Complaint fail{nowhere, nowhere};
+  const Header header = parse_header(npy, fail);
+  return header.kind == 'i' && header.item_bytes == 1;
 }
 
 }  // namespace loopmark::features::internal

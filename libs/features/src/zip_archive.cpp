@@ -6,7 +6,7 @@
 
 #include <cstdint>
 #include <cstring>
-#include <type_traits>
+#include <vector>
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/storage/files.hpp"
@@ -14,7 +14,8 @@
 namespace loopmark::features::internal {
 namespace {
 
-constexpr std::uint64_t kLargest = std::uint64_t{1} << 32U;  // 4 GiB: no descriptor file is larger
+// All members, unpacked. Two million points with 64 numbers each.
+constexpr std::uint64_t kLargest = std::uint64_t{1} << 29U;
 constexpr const char* kRemedy = "write it again with numpy.savez";
 
 /// Little-endian numbers of an archive; every access is checked.
@@ -97,9 +98,6 @@ std::string inflate_member(std::string_view packed, const Member& member, const 
 }
 
 std::string extract(const Bytes& bytes, const Member& member, const std::string& file) {
-  if (member.size >= kLargest || member.packed >= kLargest) {
-    throw InputError(file, member.name, "is larger than 4 GiB", "store fewer descriptors");
-  }
   const std::uint64_t data = member.header + 30U + bytes.number<std::uint16_t>(member.header + 26) +
                              bytes.number<std::uint16_t>(member.header + 28);
   const std::string_view packed = bytes.part(data, member.packed);
@@ -113,6 +111,48 @@ std::string extract(const Bytes& bytes, const Member& member, const std::string&
   return content;
 }
 
+/// Sizes of all members so far: no byte of the file belongs to two of them.
+class Budget {
+ public:
+  Budget(std::uint64_t file_bytes, const std::string& file) : file_bytes_(file_bytes), file_(file) {}
+
+  void take(const Member& member) {
+    if (member.size > kLargest - size_) {
+      throw InputError(file_, member.name, "the archive unpacks to more than 512 MiB", "store fewer descriptors");
+    }
+    size_ += member.size;
+    if (member.packed > file_bytes_ - packed_) {
+      throw InputError(file_, member.name, "the members of the archive overlap", kRemedy);
+    }
+    packed_ += member.packed;
+  }
+
+ private:
+  std::uint64_t file_bytes_;
+  const std::string& file_;
+  std::uint64_t size_ = 0;
+  std::uint64_t packed_ = 0;
+};
+
+Member read_member(const Bytes& bytes, std::uint64_t& at, const std::string& file) {
+  if (bytes.part(at, 4) != std::string_view("PK\1\2", 4)) {
+    throw InputError(file, "byte " + std::to_string(at), "the directory of the archive is damaged", kRemedy);
+  }
+  const auto name_length = bytes.number<std::uint16_t>(at + 28);
+  const auto extra_length = bytes.number<std::uint16_t>(at + 30);
+  Member member;
+  member.name = std::string(bytes.part(at + 46, name_length));
+  member.method = bytes.number<std::uint16_t>(at + 10);
+  member.crc = bytes.number<std::uint32_t>(at + 16);
+  member.packed = bytes.number<std::uint32_t>(at + 20);
+  member.size = bytes.number<std::uint32_t>(at + 24);
+  member.header = bytes.number<std::uint32_t>(at + 42);
+  const std::uint64_t extra = at + 46U + name_length;
+  read_zip64(bytes, extra, extra + extra_length, member);
+  at = extra + extra_length + bytes.number<std::uint16_t>(at + 32);
+  return member;
+}
+
 }  // namespace
 
 std::map<std::string, std::string> unzip(std::string_view content, const std::string& file) {
@@ -120,24 +160,15 @@ std::map<std::string, std::string> unzip(std::string_view content, const std::st
   const std::uint64_t end = find_end_record(content, file);
   const auto count = bytes.number<std::uint16_t>(end + 10);
   std::uint64_t at = bytes.number<std::uint32_t>(end + 16);
-  std::map<std::string, std::string> members;
+  std::vector<Member> directory;
+  Budget budget(content.size(), file);
   for (std::uint16_t k = 0; k < count; ++k) {
-    if (bytes.part(at, 4) != std::string_view("PK\1\2", 4)) {
-      throw InputError(file, "byte " + std::to_string(at), "the directory of the archive is damaged", kRemedy);
-    }
-    const auto name_length = bytes.number<std::uint16_t>(at + 28);
-    const auto extra_length = bytes.number<std::uint16_t>(at + 30);
-    Member member;
-    member.name = std::string(bytes.part(at + 46, name_length));
-    member.method = bytes.number<std::uint16_t>(at + 10);
-    member.crc = bytes.number<std::uint32_t>(at + 16);
-    member.packed = bytes.number<std::uint32_t>(at + 20);
-    member.size = bytes.number<std::uint32_t>(at + 24);
-    member.header = bytes.number<std::uint32_t>(at + 42);
-    const std::uint64_t extra = at + 46U + name_length;
-    read_zip64(bytes, extra, extra + extra_length, member);
+    directory.push_back(read_member(bytes, at, file));
+    budget.take(directory.back());
+  }
+  std::map<std::string, std::string> members;
+  for (const Member& member : directory) {
     members[member.name] = extract(bytes, member, file);
-    at = extra + extra_length + bytes.number<std::uint16_t>(at + 32);
   }
   return members;
 }

@@ -8,7 +8,8 @@
 
 namespace loopmark::features::internal {
 
-/// The members of a ZIP archive (stored or deflated), by name. Throws InputError naming `file` and the member.
+/// The members of a ZIP archive (stored or deflated), by name. Throws InputError naming `file` and the member; also
+/// where members overlap or unpack to more than 512 MiB together, as in an archive made to fill the memory.
 std::map<std::string, std::string> unzip(std::string_view bytes, const std::string& file);
 
 }  // namespace loopmark::features::internal

@@ -22,7 +22,7 @@ struct WeightCurve {
 };
 
 /// Log-odds of one hypothesis against "none of these", from its features: a conditional logit model whose weights vary
-/// with the scene, fitted by scripts/fit_confidence.py; docs/registration.md says on which pairs.
+/// with the scene, fitted by scripts/fit_confidence.py; docs/results/registration.md says on which pairs.
 double log_odds(const Features& features);
 
 /// P_i = exp(l_i) / (1 + sum_j exp(l_j)).

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "alignment.hpp"
 #include "candidate_refiner.hpp"
 #include "confidence.hpp"
+#include "feature_hypotheses.hpp"
 #include "loopmark/bev/correlation.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
@@ -22,39 +24,66 @@ constexpr std::size_t kRoughSurfels = 250;
 constexpr double kResidualSigma = 0.05;  // metres; of one surfel, for the covariance
 constexpr double kDependence = 40.0;     // surfels that say the same thing: neighbours do, and the two ways round
 
-constexpr const char* kLandmarks = "landmarks";
 constexpr std::size_t kOwnFinalists = 3;
 constexpr std::size_t kChance = 9;  // so many peaks higher, and a peak is chance's
 
 /// Of a motion that did not come from the correlation: as one that stands out as right ones do.
 constexpr internal::PeakHeights kNoCompetitor = {12.0, 4.0};
 
-/// The guesses of landmarks and of the bird's-eye view: planar motions between the levelled frames.
+double score_of_chance(const auto& motions) {
+  return motions.empty() ? 0.0 : motions[std::min(kChance, motions.size() - 1)].score;
+}
+
+/// A motion that many more matches agree with than chance's stands out as a peak of the correlation does that is as
+/// many times as high as chance's.
+internal::PeakHeights standing_out(double score, double chance) {
+  const double times = chance > 0.0 ? score / chance : 1.0;
+  return {times * kNoCompetitor.noise_floor, kNoCompetitor.noise_floor};
+}
+
+/// Planar motions between the levelled frames, by where they come from.
+struct Guesses {
+  std::vector<estimation::PlanarMotion> features;
+  std::vector<bev::PlanarHypothesis> landmarks;
+  std::vector<bev::PlanarHypothesis> bev;
+};
+
+Guesses guess(const PreparedScan::Data& source, const PreparedScan::Data& target, const EngineOptions& options) {
+  Guesses guesses;
+  parallel_for(3, [&](std::size_t task) {
+    if (task == 0 && asks(options, kBev)) {
+      guesses.bev = bev::correlate(source.above, target.above, options.correlation);
+    } else if (task == 1 && asks(options, kFeatures)) {
+      guesses.features = internal::match_features(*source.keypoints.of(source.fine), *target.keypoints.of(target.fine),
+                                                  options.features);
+    } else if (task == 2 && asks(options, kLandmarks)) {
+      guesses.landmarks = bev::match_landmarks(source.landmarks, target.landmarks, options.landmarks);
+    }
+  });
+  return guesses;
+}
+
 std::vector<internal::Candidate> hypothesize(const PreparedScan::Data& source, const PreparedScan::Data& target,
                                              const EngineOptions& options) {
+  const Guesses guesses = guess(source, target, options);
   std::vector<internal::Candidate> candidates;
-  const auto add = [&](const bev::PlanarHypothesis& h, const char* origin, const internal::PeakHeights& peak) {
+  const auto add = [&](double yaw, const Eigen::Vector3d& t, const char* origin, const internal::PeakHeights& peak) {
     internal::Candidate candidate;
-    candidate.alignment.T_target_source = pose_from_yaw(h.yaw, {h.x, h.y, 0.0});
+    candidate.alignment.T_target_source = pose_from_yaw(yaw, t);
     candidate.origin = origin;
     candidate.peak = peak;
     candidates.push_back(candidate);
   };
-  std::vector<bev::PlanarHypothesis> of_landmarks;
-  std::vector<bev::PlanarHypothesis> planar;
-  parallel_for(2, [&](std::size_t task) {
-    if (task == 0) {
-      of_landmarks = bev::match_landmarks(source.landmarks, target.landmarks, options.landmarks);
-    } else {
-      planar = bev::correlate(source.above, target.above, options.correlation);
-    }
-  });
-  const double noise_floor = planar.empty() ? 0.0 : planar[std::min(kChance, planar.size() - 1)].score;
-  for (const auto& h : of_landmarks) {
-    add(h, kLandmarks, {0.0, noise_floor});
+  const double of_chance = score_of_chance(guesses.features);
+  for (const estimation::PlanarMotion& m : guesses.features) {
+    add(m.yaw, {m.t.x(), m.t.y(), 0.0}, kFeatures, standing_out(m.score, of_chance));
   }
-  for (const auto& h : planar) {
-    add(h, "bev", {h.score, noise_floor});
+  const double noise_floor = score_of_chance(guesses.bev);
+  for (const bev::PlanarHypothesis& h : guesses.landmarks) {
+    add(h.yaw, {h.x, h.y, 0.0}, kLandmarks, {0.0, noise_floor});
+  }
+  for (const bev::PlanarHypothesis& h : guesses.bev) {
+    add(h.yaw, {h.x, h.y, 0.0}, kBev, {h.score, noise_floor});
   }
   return candidates;
 }
@@ -106,14 +135,15 @@ std::vector<internal::Candidate> shortlist(std::vector<internal::Candidate> cand
   return kept;
 }
 
-/// The best of all, and the best of the landmarks' own: these have no peak that speaks for them.
+/// The best of all, and the best of each other source's own: these have no peak of the correlation that speaks for
+/// them.
 std::vector<internal::Candidate> finalists(const std::vector<internal::Candidate>& candidates, std::size_t most) {
   std::vector<internal::Candidate> kept;
-  std::size_t own = 0;
+  std::map<std::string, std::size_t> own;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const bool of_landmarks = candidates[i].origin == kLandmarks;
-    if (i < most || (of_landmarks && own < kOwnFinalists)) {
-      own += of_landmarks ? 1 : 0;
+    const std::string& origin = candidates[i].origin;
+    if (i < most || (origin != kBev && own[origin] < kOwnFinalists)) {
+      ++own[origin];
       kept.push_back(candidates[i]);
     }
   }
@@ -207,6 +237,7 @@ RegistrationResult decide(std::vector<internal::Candidate> candidates, const Pre
 
 RegistrationResult register_scans(const PreparedScan& source, const PreparedScan& target,
                                   const EngineOptions& options) {
+  check(options);
   Stopwatch watch;
   std::vector<internal::Candidate> candidates = hypothesize(source.data(), target.data(), options);
   std::vector<StageTime> timings = {{"hypotheses", watch.seconds()}};

@@ -67,6 +67,21 @@ PreparedScan finish(PreparedScan::Data data, const std::vector<Eigen::Vector3f>&
 
 }  // namespace
 
+std::shared_ptr<const shape_context::Keypoints> LazyKeypoints::of(const surfels::SurfelMap& fine) const {
+  std::shared_ptr<const shape_context::Keypoints> made = place_->made.load();
+  if (made == nullptr) {
+    std::vector<Eigen::Vector3f> points;
+    std::vector<float> heights;
+    for (const surfels::Surfel& surfel : fine.surfels()) {
+      points.push_back(surfel.mean);
+      heights.push_back(surfel.height);
+    }
+    made = std::make_shared<const shape_context::Keypoints>(shape_context::describe_structure(points, heights, {}));
+    place_->made.store(made);
+  }
+  return made;
+}
+
 void derive(PreparedScan::Data& data, std::vector<surfels::Surfel> surfels) {
   std::vector<surfels::Surfel> distinct = surfels::SurfelMap(std::move(surfels), kFineSurfel).surfels();
   std::vector<Eigen::Vector3f> means;

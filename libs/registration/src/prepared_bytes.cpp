@@ -15,6 +15,9 @@ namespace {
 constexpr char kMagic[4] = {'L', 'M', 'P', 'S'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeader = 12;
+constexpr std::size_t kMostViews = 1024;  // of a submap; each holds an image, however few bytes stand for it
+constexpr double kFarthest_m = 1e6;
+constexpr double kNotRigid = 1e-3;
 
 template <class T>
 void put(std::string& bytes, const T& value) {
@@ -66,6 +69,11 @@ Pose take_pose(Reader& reader) {
   Pose pose = Pose::Identity();
   for (int i = 0; i < 12; ++i) {
     pose.matrix()(i / 4, i % 4) = reader.take<double>();
+  }
+  const Eigen::Matrix3d R = pose.linear();
+  if (!pose.matrix().allFinite() || pose.translation().norm() > kFarthest_m ||
+      (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > kNotRigid) {
+    damaged("a pose is none");
   }
   return pose;
 }
@@ -170,11 +178,18 @@ PreparedScan PreparedScan::from_bytes(const std::string& bytes) {
   Data data;
   data.T_level_sensor = take_pose(reader);
   data.ground_share = reader.take<double>();
+  if (!(data.ground_share >= 0.0 && data.ground_share <= 1.0)) {
+    damaged("the share of ground is not within 0 and 1");
+  }
   std::vector<surfels::Surfel> surfels(reader.count(10));
   for (surfels::Surfel& surfel : surfels) {
     surfel = take_surfel(reader);
   }
-  data.views.resize(reader.count(96));
+  const std::size_t views = reader.count(96);
+  if (views > kMostViews) {
+    damaged("more than " + std::to_string(kMostViews) + " views");
+  }
+  data.views.resize(views);
   for (View& view : data.views) {
     view.T_level_sensor = take_pose(reader);
     view.image = take_image(reader);

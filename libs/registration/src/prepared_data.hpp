@@ -3,11 +3,15 @@
 /// What a PreparedScan holds.
 #pragma once
 
+#include <atomic>
+#include <memory>
+
 #include "loopmark/bev/ground_map.hpp"
 #include "loopmark/bev/landmarks.hpp"
 #include "loopmark/bev/structure.hpp"
 #include "loopmark/registration/engine.hpp"
 #include "loopmark/registration/range_image.hpp"
+#include "loopmark/shape_context/fourier_shape_context.hpp"
 #include "loopmark/surfels/surfel_map.hpp"
 
 namespace loopmark::registration {
@@ -16,6 +20,20 @@ namespace loopmark::registration {
 struct View {
   Pose T_level_sensor = Pose::Identity();
   RangeImage image;
+};
+
+/// Descriptors of a scan, made when they are first asked for: they follow from the surfels and are not stored. Threads
+/// that ask at the same time may make them twice and get the same; one that waited for another within a parallel loop
+/// could wait for itself.
+class LazyKeypoints {
+ public:
+  std::shared_ptr<const shape_context::Keypoints> of(const surfels::SurfelMap& fine) const;
+
+ private:
+  struct Place {
+    std::atomic<std::shared_ptr<const shape_context::Keypoints>> made;
+  };
+  std::shared_ptr<Place> place_ = std::make_shared<Place>();
 };
 
 struct PreparedScan::Data {
@@ -27,6 +45,7 @@ struct PreparedScan::Data {
   std::vector<bev::Landmark> landmarks;
   bev::GroundMap ground;
   std::vector<View> views;
+  LazyKeypoints keypoints;
 };
 
 constexpr float kFineSurfel = 0.4F;

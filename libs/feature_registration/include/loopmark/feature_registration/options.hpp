@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "loopmark/core/options.hpp"
 #include "loopmark/estimation/gnc.hpp"
@@ -13,6 +14,7 @@
 #include "loopmark/features/normals.hpp"
 #include "loopmark/matching/filters.hpp"
 #include "loopmark/refinement/icp_options.hpp"
+#include "loopmark/shape_context/options.hpp"
 
 namespace loopmark::feature_registration {
 
@@ -29,6 +31,8 @@ enum class Estimator { kRansac, kGnc, kSpatialConsistency };
 struct FeatureRegistrationOptions {
   double voxel_m = 0.3;
   VoxelPoint voxel_point = VoxelPoint::kFirst;
+  std::string descriptor = "fsc";  ///< one of descriptors()
+  shape_context::Options fsc;
   features::NormalOptions normals;
   features::FpfhOptions fpfh;
   bool match_ground = true;
@@ -50,9 +54,11 @@ void describe(Visitor& v, FeatureRegistrationOptions& o) {
   v.field("voxel_m", o.voxel_m, "edge of a voxel of the downsampling, metres");
   v.choice("voxel_point", o.voxel_point, {{"first", VoxelPoint::kFirst}, {"centroid", VoxelPoint::kCentroid}},
            "what is kept of a voxel: one original point, or the centroid");
+  v.field("descriptor", o.descriptor, "local descriptors: fsc (Fourier shape context) or fpfh");
+  v.section("fsc", o.fsc, "Fourier shape context");
   v.section("normals", o.normals, "surface normals");
-  v.section("fpfh", o.fpfh, "local descriptors");
-  v.field("match_ground", o.match_ground, "match ground points too, as the paper does");
+  v.section("fpfh", o.fpfh, "Fast Point Feature Histograms");
+  v.field("match_ground", o.match_ground, "fpfh: match ground points too, as the paper does");
   v.section("ground", o.ground, "which points are left out where match_ground is false");
   v.choice("filter", o.filter,
            {{"all", MatchFilter::kAll}, {"mutual", MatchFilter::kMutual}, {"gpf", MatchFilter::kGpf}},
@@ -75,6 +81,7 @@ void describe(Visitor& v, FeatureRegistrationOptions& o) {
 inline void check(const FeatureRegistrationOptions& o) {
   require_option(o.voxel_m > 0, "voxel_m", "must be larger than 0");
   require_option(o.max_ratio > 0, "max_ratio", "must be larger than 0");
+  check(o.fsc);
   check(o.normals);
   check(o.fpfh);
   check(o.ground);

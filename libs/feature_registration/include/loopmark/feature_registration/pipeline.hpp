@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "loopmark/core/point_cloud.hpp"
@@ -20,16 +21,17 @@ namespace loopmark::feature_registration {
 struct DescribedScan {
   refinement::Surface surface;             ///< downsampled points, and normals where they were computed
   std::vector<Eigen::Vector3f> keypoints;  ///< the points that have a descriptor, one a row
-  search::DescriptorMatrix descriptors;
+  search::DescriptorRows descriptors;
   std::vector<registration::StageTime> timings;  ///< "downsample", "normals", "descriptors"
 };
 
-/// Downsampling, normals and FPFH of one scan (points in the sensor's frame, metres).
+/// Downsampling, normals where they are needed and the descriptors of options.descriptor for one scan (points in the
+/// sensor's frame, metres).
 DescribedScan describe_scan(const PointCloud& cloud, const FeatureRegistrationOptions& options);
 
 /// A scan whose descriptors come from elsewhere (learned ones, read from a file); `keypoints` has one point a row. The
 /// cloud, downsampled, serves the refinement; empty: the keypoints do.
-DescribedScan described_scan(std::vector<Eigen::Vector3f> keypoints, search::DescriptorMatrix descriptors,
+DescribedScan described_scan(std::vector<Eigen::Vector3f> keypoints, search::DescriptorRows descriptors,
                              const PointCloud& cloud, const FeatureRegistrationOptions& options);
 
 /// What the pipeline found, with what happened on the way.
@@ -61,6 +63,11 @@ struct ScanMatches {
   std::size_t mutual = 0;
   std::vector<registration::StageTime> timings;  ///< "nearest"
 };
+
+/// Throws InputError naming both origins (files, or what else the scans are called) when the descriptors of two scans
+/// cannot be compared: other lengths, or quantised ones and others.
+void require_comparable(const DescribedScan& source, const std::string& source_origin, const DescribedScan& target,
+                        const std::string& target_origin);
 
 /// Sec. 4 of the paper: every source point is matched to the target point nearest to it in feature space.
 ScanMatches match_described(const DescribedScan& source, const DescribedScan& target);

@@ -13,7 +13,7 @@ namespace loopmark::features {
 /// Points with descriptors computed elsewhere, for example by a trained network.
 struct DescriptorFile {
   std::vector<Eigen::Vector3f> points;  ///< metres, in the sensor's frame, one a row of the descriptors
-  search::DescriptorMatrix descriptors;
+  search::DescriptorRows descriptors;   ///< whole numbers where the file holds int8
 };
 
 /// Reads a .npz archive of NumPy, stored or compressed, as FCGF, D3Feat and others export it: descriptors in an array

@@ -31,4 +31,10 @@ struct TwoWayNearest {
 /// Throws std::invalid_argument when the two matrices have different numbers of columns.
 TwoWayNearest nearest_two(const search::DescriptorMatrix& source, const search::DescriptorMatrix& target);
 
+/// The same for quantised descriptors (numbers from -127 to 127), by brute force on whole numbers: exact.
+TwoWayNearest nearest_two(const search::QuantizedDescriptors& source, const search::QuantizedDescriptors& target);
+
+/// The same for either. Throws std::invalid_argument when one is quantised and the other not, unless one is empty.
+TwoWayNearest nearest_two(const search::DescriptorRows& source, const search::DescriptorRows& target);
+
 }  // namespace loopmark::matching
