@@ -161,6 +161,35 @@ TEST_F(ExperimentRun, DamageInTheMiddleOfAShardIsToldWithItsLine) {
   }
 }
 
+TEST_F(ExperimentRun, OutcomesOfPairsThatAreNotThereAreRefused) {
+  run(folder_ / "whole", task_);
+  const fs::path records = folder_ / "whole/shards/1-of-1.records";
+  const std::string good = storage::read_file(records);
+  const std::string line = storage::read_records(records).lines.at(2);
+  for (const char* pair : {"99999999", "40", "-1", "37"}) {  // 37 is the first negative, the outcome is none
+    storage::write_file_atomically(records, good);
+    std::string evil = line;
+    const std::size_t at = evil.find("\"pair\":") + 7;
+    evil.replace(at, evil.find(',', at) - at, pair);
+    storage::RecordWriter(records).append(evil);
+    EXPECT_THAT([&] { read_result(folder_ / "whole"); },
+                testing::ThrowsMessage<InputError>(testing::HasSubstr("1-of-1.records:line 81: an outcome of pair")))
+        << pair;
+    EXPECT_THROW(merge_results({folder_ / "whole"}, folder_ / "merged"), InputError);
+  }
+}
+
+TEST_F(ExperimentRun, SettingsOfAlgorithmsThatAreNotThereAreRefused) {
+  run(folder_ / "whole", task_);
+  const fs::path file = folder_ / "whole/experiment.json";
+  std::string text = storage::read_file(file);
+  const std::size_t at = text.find("\"seed 2\"");
+  text.erase(text.rfind(',', at), at + 8 - text.rfind(',', at));
+  storage::write_file_atomically(file, text);
+  EXPECT_THAT([&] { read_result(folder_ / "whole"); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("settings: there are not as many")));
+}
+
 TEST_F(ExperimentRun, AnotherExperimentIsNotMixedIn) {
   run(folder_ / "one", task_);
   task_.criterion.max_translation_m = 0.3;

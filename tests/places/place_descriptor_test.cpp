@@ -81,6 +81,18 @@ TEST(PlaceDescriptor, BytesComeBackAndDamageIsNoticed) {
   EXPECT_THROW(PlaceDescriptor::from_bytes(bytes), InputError);
 }
 
+TEST(PlaceDescriptor, OfAnotherLengthOrWithoutNumbersIsRefused) {
+  PlaceDescriptor descriptor = place_descriptor(Town(1).seen_from(0, 0, 0));
+  EXPECT_NO_THROW(require_sound(descriptor, {}));
+  descriptor.values[7] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(require_sound(descriptor, {}), InputError);
+  descriptor.values[7] = 2.0F;
+  EXPECT_THROW(require_sound(descriptor, {}), InputError);
+  descriptor.values.resize(4);
+  descriptor.values.assign(4, 0.5F);
+  EXPECT_THROW(require_sound(descriptor, {}), InputError);
+}
+
 TEST(PlaceDescriptor, DoesNotChangeWithWhatOnlySomeSensorsSee) {
   std::vector<Eigen::Vector3f> points = Town(5).seen_from(0, 0, 0);
   const PlaceDescriptor without = place_descriptor(points);

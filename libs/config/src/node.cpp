@@ -13,9 +13,38 @@ namespace {
 
 Place place_of(const YAML::Node& yaml, const std::string& file) { return {file, yaml.Mark().line + 1}; }
 
-Node convert(const YAML::Node& yaml, const std::string& file);
+constexpr std::size_t kDeepest = 64;    // options nest three deep
+constexpr std::size_t kMost = 100'000;  // values; all options together are some hundreds
 
-void add_key(Node& map, const YAML::Node& key, const YAML::Node& value, const std::string& file) {
+/// From yaml-cpp's nodes to ours. An alias stands for a whole subtree each time, so that a short file may mean a tree
+/// without end: depth and number of values are bounded.
+class Converter {
+ public:
+  explicit Converter(const std::string& file) : file_(file) {}
+  Node convert(const YAML::Node& yaml, std::size_t depth);
+
+ private:
+  void add_key(Node& map, const YAML::Node& key, const YAML::Node& value, std::size_t depth);
+  void count(const Place& place, std::size_t depth);
+
+  const std::string& file_;
+  std::size_t values_ = 0;
+};
+
+void Converter::count(const Place& place, std::size_t depth) {
+  if (depth > kDeepest) {
+    throw InputError(file_, place.line_text(),
+                     "values are nested more than " + std::to_string(kDeepest) + " deep (an alias that holds itself?)",
+                     "write the values out");
+  }
+  if (++values_ > kMost) {
+    throw InputError(file_, place.line_text(), "more than " + std::to_string(kMost) + " values (aliases of aliases?)",
+                     "write out those that are meant");
+  }
+}
+
+void Converter::add_key(Node& map, const YAML::Node& key, const YAML::Node& value, std::size_t depth) {
+  const std::string& file = file_;
   const Place place = place_of(key, file);
   if (!key.IsScalar()) {
     throw InputError(file, place.line_text(), "a key must be a name");
@@ -26,14 +55,15 @@ void add_key(Node& map, const YAML::Node& key, const YAML::Node& value, const st
                        "'" + name + "' is given twice, first in line " + other.place.line_text(), "remove one of them");
     }
   }
-  Node node = convert(value, file);
+  Node node = convert(value, depth);
   node.place = place;
   map.keys.push_back({key.Scalar(), std::move(node)});
 }
 
-Node convert(const YAML::Node& yaml, const std::string& file) {
+Node Converter::convert(const YAML::Node& yaml, std::size_t depth) {
   Node node;
-  node.place = place_of(yaml, file);
+  node.place = place_of(yaml, file_);
+  count(node.place, depth);
   switch (yaml.Type()) {
     case YAML::NodeType::Scalar:
       node.kind = Node::Kind::kScalar;
@@ -42,13 +72,13 @@ Node convert(const YAML::Node& yaml, const std::string& file) {
     case YAML::NodeType::Sequence:
       node.kind = Node::Kind::kSequence;
       for (const YAML::Node& item : yaml) {
-        node.items.push_back(convert(item, file));
+        node.items.push_back(convert(item, depth + 1));
       }
       break;
     case YAML::NodeType::Map:
       node.kind = Node::Kind::kMap;
       for (const auto& entry : yaml) {
-        add_key(node, entry.first, entry.second, file);
+        add_key(node, entry.first, entry.second, depth + 1);
       }
       break;
     default:
@@ -71,7 +101,7 @@ void set_file(Node& node, const Place& place) {
 
 Node parse_yaml(const std::string& text, const std::string& file) {
   try {
-    return convert(YAML::Load(text), file);
+    return Converter(file).convert(YAML::Load(text), 0);
   } catch (const YAML::Exception& error) {
     const std::string line = error.mark.is_null() ? "" : std::to_string(error.mark.line + 1);
     throw InputError(file, line, "not valid YAML: " + error.msg);

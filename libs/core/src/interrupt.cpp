@@ -23,8 +23,17 @@ extern "C" void on_signal(int /*signal*/) {
 }  // namespace
 
 void install_interrupt_handler() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  ::sigemptyset(&action.sa_mask);
+  action.sa_flags = 0;  // a call that waits, such as opening a pipe, ends with the first signal
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (signal != SIGHUP || before.sa_handler != SIG_IGN) {  // nohup
+      ::sigaction(signal, &action, nullptr);
+    }
+  }
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, which names the file
 }
 

@@ -11,6 +11,7 @@
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/core/interrupt.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/storage/files.hpp"
 #include "loopmark/text/number_rows.hpp"
@@ -52,10 +53,7 @@ class RecallSoFar {
     if (count_ == 0) {
       return "";
     }
-    char line[64];
-    std::snprintf(line, sizeof line, "recall %.1f %%",
-                  100.0 * static_cast<double>(successes_) / static_cast<double>(count_));
-    return line;
+    return format_text("recall %.1f %%", 100.0 * static_cast<double>(successes_) / static_cast<double>(count_));
   }
 
  private:
@@ -72,7 +70,7 @@ class Run {
         load_(load),
         writer_(writer),
         todo_(pairs_left()),
-        progress_("pairs", todo_.size()) {
+        progress_("evaluation", "pairs", todo_.size()) {
     for (const Outcome& outcome : writer.found()) {
       recall_.add(outcome);
       found_[outcome.pair].emplace(outcome.algorithm, outcome.answer);

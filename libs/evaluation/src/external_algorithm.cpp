@@ -11,8 +11,10 @@
 
 #include "child_process.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
+#include "loopmark/storage/files.hpp"
 
 namespace loopmark::evaluation {
 namespace {
@@ -47,12 +49,12 @@ Answer parse_answer(const std::string& line) {
     return nonsense(line, "neither motion nor failed");
   }
   std::vector<double> values;
-  try {
-    while (words >> word) {
-      values.push_back(std::stod(word));
+  while (words >> word) {
+    const std::optional<double> value = number_in(word);
+    if (!value) {
+      return nonsense(line, "'" + word + "' is no number");
     }
-  } catch (const std::exception&) {
-    return nonsense(line, "'" + word + "' is no number");
+    values.push_back(*value);
   }
   if (values.size() != 18) {
     return nonsense(line, std::to_string(values.size()) + " numbers where 18 are expected");
@@ -73,12 +75,10 @@ class ExternalAlgorithm : public RegistrationAlgorithm {
  public:
   ExternalAlgorithm(std::string name, const ExternalOptions& options) : name_(std::move(name)), options_(options) {
     const fs::path base = options.scratch.empty() ? fs::temp_directory_path() : options.scratch;
-    static std::atomic<int> counter{0};
-    scratch_ = base / ("loopmark-pairs-" + std::to_string(::getpid()) + "-" + std::to_string(counter++));
-    if (scratch_.string().find(' ') != std::string::npos) {
-      throw InputError(scratch_.string(), "", "a space in the folder for the clouds", "set TMPDIR to one without");
+    if (base.string().find(' ') != std::string::npos) {
+      throw InputError(base.string(), "", "a space in the folder for the clouds", "set TMPDIR to one without");
     }
-    fs::create_directories(scratch_);
+    scratch_ = storage::make_private_folder(base, "loopmark-pairs-");
     try {
       idle_.push_back(start());
     } catch (...) {
@@ -98,7 +98,7 @@ class ExternalAlgorithm : public RegistrationAlgorithm {
 
   const std::string& name() const override { return name_; }
   std::string settings() const override {
-    return options_.command + " (time limit " + std::to_string(options_.time_limit_s) + " s)";
+    return options_.command + " (time limit " + format_text("%f", options_.time_limit_s) + " s)";
   }
 
   Answer answer(const PairTask& task) override {
@@ -128,7 +128,7 @@ class ExternalAlgorithm : public RegistrationAlgorithm {
                                : read == internal::ChildProcess::Read::kLine    ? "said '" + shortened(line) + "'"
                                                                                 : "ended (" + process->stop() + ")";
       throw InputError("the program '" + options_.command + "' " + what + " where 'ready' was expected", "",
-                       "it must speak the protocol of docs/evaluation.md");
+                       "it must speak the protocol of docs/guide/evaluation.md");
     }
     return process;
   }

@@ -5,6 +5,7 @@
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/evaluation/algorithm.hpp"
+#include "loopmark/feature_registration/descriptor.hpp"
 #include "loopmark/feature_registration/named_algorithms.hpp"
 #include "loopmark/feature_registration/pipeline.hpp"
 #include "loopmark/features/descriptor_file.hpp"
@@ -20,12 +21,15 @@ double seconds_of(const std::vector<registration::StageTime>& stages) {
   return seconds;
 }
 
-/// The named variants differ in whether ground is described; everything else of the description is the same.
+/// What variants that describe scans alike have in common.
 std::string description_key(const feature_registration::FeatureRegistrationOptions& options) {
-  return std::string(options.match_ground ? "all points" : "without ground") + ", voxel " +
-         std::to_string(options.voxel_m) +
-         (options.voxel_point == feature_registration::VoxelPoint::kFirst ? " first" : " centroid") + ", normals " +
-         std::to_string(options.normals.radius_m) + ", fpfh " + std::to_string(options.fpfh.radius_m);
+  std::string key = options.descriptor + ", voxel " + std::to_string(options.voxel_m) +
+                    (options.voxel_point == feature_registration::VoxelPoint::kFirst ? " first" : " centroid");
+  if (options.descriptor == "fpfh") {
+    key += std::string(options.match_ground ? ", all points" : ", without ground") + ", normals " +
+           std::to_string(options.normals.radius_m) + ", radius " + std::to_string(options.fpfh.radius_m);
+  }
+  return key;
 }
 
 /// The file of a frame's descriptors. Throws InputError when there is none.
@@ -44,8 +48,8 @@ std::filesystem::path descriptor_file(const std::filesystem::path& folder, int s
 
 class PaperAlgorithm : public RegistrationAlgorithm {
  public:
-  /// `features`: folder of descriptors made elsewhere; empty: FPFH. `key`: what variants that describe scans alike
-  /// share.
+  /// `features`: folder of descriptors made elsewhere; empty: those of options.descriptor. `key`: what variants that
+  /// describe scans alike share.
   PaperAlgorithm(std::string name, feature_registration::FeatureRegistrationOptions options,
                  std::filesystem::path features, std::string key, std::string settings)
       : name_(std::move(name)),
@@ -66,12 +70,19 @@ class PaperAlgorithm : public RegistrationAlgorithm {
     const feature_registration::DescribedScan& target = task.scans->shared<feature_registration::DescribedScan>(
         "target, " + key_,
         [&] { return described(task.scans->target(), task.key.target_session, task.key.target, nullptr); });
+    feature_registration::require_comparable(source, origin_of(task.key.session, task.key.source), target,
+                                             origin_of(task.key.target_session, task.key.target));
     const feature_registration::ScanMatches& matches = task.scans->shared<feature_registration::ScanMatches>(
         "matches, " + key_, [&] { return feature_registration::match_described(source, target); });
     return answer_of(feature_registration::register_matched(source, target, matches, options_), source, target);
   }
 
  private:
+  std::string origin_of(int session, int frame) const {
+    return features_.empty() ? "session " + std::to_string(session) + " frame " + std::to_string(frame)
+                             : descriptor_file(features_, session, frame).string();
+  }
+
   feature_registration::DescribedScan described(const PointCloud& cloud, int session, int frame,
                                                 const Pose* moved) const {
     if (features_.empty()) {
@@ -125,12 +136,23 @@ feature_registration::FeatureRegistrationOptions with_seed_of(
   return options;
 }
 
+/// With the descriptor that was asked for by name. Throws InputError when there is none of this name.
+feature_registration::FeatureRegistrationOptions described_by(
+    const DescriptorSource& descriptors, feature_registration::FeatureRegistrationOptions options) {
+  if (!descriptors.domain.empty() && descriptors.folder.empty()) {
+    options.descriptor = descriptors.domain;
+    feature_registration::make_descriptor(options);
+  }
+  return options;
+}
+
 std::unique_ptr<RegistrationAlgorithm> make_paper_algorithm(
     const std::string& name, const feature_registration::FeatureRegistrationOptions& options,
     const DescriptorSource& descriptors, std::string key, const std::string& settings) {
   const auto& [domain, folder] = descriptors;
-  if (domain.empty()) {
-    return std::make_unique<PaperAlgorithm>(name, options, "", std::move(key), settings);
+  if (folder.empty()) {
+    const std::string full_name = domain.empty() ? name : name + "@" + domain;
+    return std::make_unique<PaperAlgorithm>(full_name, options, "", std::move(key), settings);
   }
   if (!std::filesystem::is_directory(folder)) {
     throw InputError(folder.string(), "", "no such folder", "--features NAME=FOLDER");
@@ -143,8 +165,8 @@ std::unique_ptr<RegistrationAlgorithm> make_paper_algorithm(
 
 std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& name,
                                                             const DescriptorSource& descriptors) {
-  const feature_registration::FeatureRegistrationOptions options =
-      with_seed_of(name, feature_registration::named_algorithm(name.substr(0, name.find('#'))));
+  const feature_registration::FeatureRegistrationOptions options = described_by(
+      descriptors, with_seed_of(name, feature_registration::named_algorithm(name.substr(0, name.find('#')))));
   const std::string key = description_key(options);
   return make_paper_algorithm(
       name, options, descriptors, key,
@@ -154,10 +176,11 @@ std::unique_ptr<RegistrationAlgorithm> make_named_algorithm(const std::string& n
 std::unique_ptr<RegistrationAlgorithm> make_configured_algorithm(
     const std::string& name, const feature_registration::FeatureRegistrationOptions& options,
     const std::string& settings, const DescriptorSource& descriptors) {
-  const feature_registration::FeatureRegistrationOptions own = with_seed_of(name, options);
+  const feature_registration::FeatureRegistrationOptions own = described_by(descriptors, with_seed_of(name, options));
   check(own);
-  return make_paper_algorithm(name, own, descriptors, "configured: " + settings,
-                              settings + "seed: " + std::to_string(own.ransac.seed));
+  const std::string described = settings + "descriptor: " + own.descriptor + "\n";
+  return make_paper_algorithm(name, own, descriptors, "configured: " + described,
+                              described + "seed: " + std::to_string(own.ransac.seed));
 }
 
 }  // namespace loopmark::evaluation

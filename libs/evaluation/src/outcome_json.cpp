@@ -124,11 +124,11 @@ std::string experiment_to_json(const Experiment& experiment) {
   json["max_translation_m"] = experiment.criterion.max_translation_m;
   json["algorithms"] = experiment.algorithms;
   json["settings"] = experiment.settings;
-  return json.dump(2) + '\n';
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
 Experiment experiment_from_json(const std::string& text, const std::string& file) {
-  return parsed(text, file, [](const Json& json) {
+  return parsed(text, file, [&file](const Json& json) {
     Experiment experiment;
     experiment.set_name = json.at("set").get<std::string>();
     experiment.set_sha256 = json.at("set_sha256").get<std::string>();
@@ -138,6 +138,10 @@ Experiment experiment_from_json(const std::string& text, const std::string& file
     experiment.criterion = {json.at("max_rotation_deg").get<double>(), json.at("max_translation_m").get<double>()};
     experiment.algorithms = json.at("algorithms").get<std::vector<std::string>>();
     experiment.settings = json.at("settings").get<std::vector<std::string>>();
+    if (experiment.settings.size() != experiment.algorithms.size()) {
+      throw InputError(file, "settings", "there are not as many as algorithms", "copy the folder again");
+    }
+    check(experiment.criterion);
     return experiment;
   });
 }

@@ -21,7 +21,7 @@ Outcome times_from_line(const std::string& line, const std::string& file);
 std::string experiment_to_json(const Experiment& experiment);
 Experiment experiment_from_json(const std::string& text, const std::string& file);
 
-/// summary.json (docs/evaluation.md says what its fields mean).
+/// summary.json (docs/reference/files.md says what its fields mean).
 std::string summary_to_json(const Experiment& experiment, const std::vector<AlgorithmSummary>& summaries,
                             const std::vector<PairedTest>& tests);
 

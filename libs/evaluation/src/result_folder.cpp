@@ -69,10 +69,17 @@ Experiment read_experiment(const fs::path& folder) {
                                         (folder / kExperimentFile).string());
 }
 
-EvaluatedSet read_set(const fs::path& folder) {
+EvaluatedSet read_set(const fs::path& folder, const Experiment& experiment) {
   EvaluatedSet set{pair_sets::read_pair_set(folder / kPairsFile), {}};
   if (fs::exists(folder / kNegativesFile)) {
     set.negatives = pair_sets::read_negatives(folder / kNegativesFile);
+  }
+  if (set.pairs.size() != experiment.pairs || set.negatives.size() != experiment.negatives) {
+    throw InputError((folder / kPairsFile).string(), "",
+                     "holds " + std::to_string(set.pairs.size()) + " pairs and " +
+                         std::to_string(set.negatives.size()) + " negatives, but " + kExperimentFile + " tells of " +
+                         std::to_string(experiment.pairs) + " and " + std::to_string(experiment.negatives),
+                     "copy the folder again");
   }
   return set;
 }
@@ -90,12 +97,26 @@ void write_experiment(const fs::path& folder, const Experiment& experiment, cons
   storage::write_file_atomically(folder / kExperimentFile, internal::experiment_to_json(experiment));
 }
 
+/// Throws InputError unless the outcome is one of a pair that the experiment has.
+void require_pair(const Outcome& outcome, const Experiment& experiment, const fs::path& file, std::size_t line) {
+  const std::size_t pairs = experiment.pairs + experiment.negatives;
+  if (outcome.pair >= pairs || outcome.negative != (outcome.pair >= experiment.pairs)) {
+    throw InputError(file.string(), "line " + std::to_string(line),
+                     "an outcome of pair " + std::to_string(outcome.pair) + ", but the set has " +
+                         std::to_string(experiment.pairs) + " pairs and behind them " +
+                         std::to_string(experiment.negatives) + " of different places",
+                     "delete this file and run the shard again");
+  }
+}
+
 /// Outcomes of all record files in a folder, the times put back in; the first record of a pair counts.
-std::map<OutcomeKey, Outcome> read_outcomes(const fs::path& folder) {
+std::map<OutcomeKey, Outcome> read_outcomes(const fs::path& folder, const Experiment& experiment) {
   std::map<OutcomeKey, Outcome> outcomes;
   for (const fs::path& file : files_with_ending(folder / "shards", ".records")) {
+    std::size_t number = 0;
     for (const std::string& line : storage::read_records(file).lines) {
       Outcome outcome = internal::outcome_from_line(line, file.string());
+      require_pair(outcome, experiment, file, ++number);
       const OutcomeKey key{outcome.algorithm, outcome.pair};
       outcomes.emplace(key, std::move(outcome));
     }
@@ -197,7 +218,7 @@ OutcomeWriter::OutcomeWriter(const fs::path& folder, const Experiment& experimen
     throw InputError(folder.string(), "", "this folder holds another experiment",
                      "give another -o (loopmark evaluate merge joins results of one set)");
   }
-  for (auto& [key, outcome] : read_outcomes(folder)) {
+  for (auto& [key, outcome] : read_outcomes(folder, experiment)) {
     done_.insert(key);
     found_.push_back(std::move(outcome));
   }
@@ -219,15 +240,17 @@ void OutcomeWriter::add(const Outcome& outcome) {
 }
 
 StoredResult read_result(const fs::path& folder) {
-  StoredResult result{read_experiment(folder), read_set(folder), {}};
-  const auto outcomes = read_outcomes(folder);
+  StoredResult result{read_experiment(folder), {}, {}};
+  result.set = read_set(folder, result.experiment);
+  const auto outcomes = read_outcomes(folder, result.experiment);
   require_complete(folder, outcomes, result.experiment, result.set);
   result.outcomes = ordered(outcomes, result.experiment);
   return result;
 }
 
 bool result_is_complete(const fs::path& folder) {
-  return missing_pairs(read_outcomes(folder), read_experiment(folder), read_set(folder)).empty();
+  const Experiment experiment = read_experiment(folder);
+  return missing_pairs(read_outcomes(folder, experiment), experiment, read_set(folder, experiment)).empty();
 }
 
 StoredResult merge_results(const std::vector<fs::path>& folders, const fs::path& target) {
@@ -237,13 +260,13 @@ StoredResult merge_results(const std::vector<fs::path>& folders, const fs::path&
     const Experiment experiment = read_experiment(folder);
     if (folder == folders.front()) {
       merged.experiment = experiment;
-      merged.set = read_set(folder);
+      merged.set = read_set(folder, experiment);
     } else if (!merged.experiment.same_task(experiment)) {
       throw InputError(folder.string(), "", "another set or criterion than " + folders.front().string(),
                        "only results of the same pairs can be joined");
     }
     add_algorithms(merged.experiment, experiment);
-    outcomes.merge(read_outcomes(folder));
+    outcomes.merge(read_outcomes(folder, experiment));
   }
   require_complete(folders.front(), outcomes, merged.experiment, merged.set);
   merged.outcomes = ordered(outcomes, merged.experiment);

@@ -7,6 +7,7 @@
 
 #include "loopmark/cloud/overlap.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/parallel.hpp"
 
 namespace loopmark::evaluation {
@@ -56,9 +57,7 @@ bool match_set_to_scans(ExperimentTask& task, const ScanLoader& load) {
       return true;
     }
   }
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
+  const std::string text = format_text(
       "the scans do not fit the set: symmetric overlap of %zu pairs is %.2f in the set, %.2f recomputed (medians)",
       check.samples, check.median_stored, check.median_recomputed);
   throw InputError(task.set_name, "", text,

@@ -118,7 +118,7 @@ std::string summary_to_json(const Experiment& experiment, const std::vector<Algo
                                     {"neither", test.neither},
                                     {"mcnemar_p", test.p_value}});
   }
-  return json.dump(2) + '\n';
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace loopmark::evaluation::internal

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/map_store/keyframe_files.hpp"
 
+#include <algorithm>
+
 #include "loopmark/bev/ground_alignment.hpp"
+#include "loopmark/core/error.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/storage/files.hpp"
 #include "loopmark/storage/record_file.hpp"
@@ -34,19 +37,28 @@ void write_keyframe_place(const RunFolder& folder, std::size_t number, const Poi
 }
 
 places::PlaceDescriptor read_keyframe_place(const RunFolder& folder, std::size_t number) {
-  const std::string bytes = storage::read_file(folder.keyframe(number, "place"));
-  return places::PlaceDescriptor::is_outdated(bytes) ? place_of(read_keyframe_cloud(folder, number))
-                                                     : places::PlaceDescriptor::from_bytes(bytes);
+  const std::filesystem::path file = folder.keyframe(number, "place");
+  const std::string bytes = storage::read_file(file);
+  if (places::PlaceDescriptor::is_outdated(bytes)) {
+    return place_of(read_keyframe_cloud(folder, number));
+  }
+  try {
+    places::PlaceDescriptor descriptor = places::PlaceDescriptor::from_bytes(bytes);
+    places::require_sound(descriptor, places::PlaceOptions{});
+    return descriptor;
+  } catch (const InputError& error) {
+    throw InputError(file.string(), "", error.what(), "copy it again, or map its log again");
+  }
 }
 
 void keep_records(const std::filesystem::path& path, std::size_t count) {
-  const storage::RecordLines records = storage::read_records(path);
-  if (records.lines.size() <= count) {
+  const storage::RecordLines records = storage::read_sound_records(path);
+  if (records.lines.size() <= count && !records.damaged) {
     return;
   }
   const std::string content = storage::read_file(path);
   std::size_t end = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < std::min(count, records.lines.size()); ++i) {
     end = content.find('\n', end) + 1;
   }
   storage::write_file_atomically(path, std::string_view(content).substr(0, end));

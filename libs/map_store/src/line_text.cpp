@@ -3,20 +3,17 @@
 #include "loopmark/map_store/line_text.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
+#include <charconv>
+#include <optional>
 
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/number_text.hpp"
 
 namespace loopmark::map_store {
 
 LineWriter& LineWriter::whole(std::size_t value) { return word(std::to_string(value)); }
 
-LineWriter& LineWriter::number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%a", value);
-  return word(text);
-}
+LineWriter& LineWriter::number(double value) { return word(exact_text(value)); }
 
 LineWriter& LineWriter::word(const std::string& value) {
   std::string safe = value.empty() ? "-" : value;
@@ -68,22 +65,22 @@ std::string LineReader::word() {
 
 std::size_t LineReader::whole() {
   const std::string text = word();
-  char* end = nullptr;
-  const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
-  if (*end != '\0') {
+  std::size_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) {
     throw InputError("record: \"" + text + "\" is no whole number");
   }
-  return static_cast<std::size_t>(value);
+  return value;
 }
 
 double LineReader::number() {
   const std::string text = word();
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (*end != '\0') {
+  const std::optional<double> value = number_in(text);
+  if (!value) {
     throw InputError("record: \"" + text + "\" is no number");
   }
-  return value;
+  return *value;
 }
 
 Pose LineReader::pose() {

@@ -13,9 +13,9 @@ namespace {
 constexpr const char* kVetoWord = "veto";
 constexpr const char* kForceWord = "force";
 
-std::filesystem::path decisions_file(const RunFolder& run) { return run / "records/decisions.rec"; }
-
 }  // namespace
+
+std::filesystem::path decisions_file(const RunFolder& run) { return run / "records/decisions.rec"; }
 
 std::string to_string(LoopOverride loop_override) {
   return loop_override == LoopOverride::kVeto ? "vetoed by a person" : "forced by a person";
@@ -38,7 +38,7 @@ std::vector<LoopDecision> read_loop_decisions(const RunFolder& run) {
     LoopDecision decision;
     std::string word;
     if (!(words >> decision.source >> decision.target >> word) || (word != kVetoWord && word != kForceWord)) {
-      throw InputError(decisions_file(run).string(), "record " + std::to_string(decisions.size() + 1),
+      throw InputError(decisions_file(run).string(), "line " + std::to_string(decisions.size() + 1),
                        "is no decision: '" + line + "'", "delete the file to forget all decisions");
     }
     decision.loop_override = word == kVetoWord ? LoopOverride::kVeto : LoopOverride::kForce;

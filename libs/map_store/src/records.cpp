@@ -14,6 +14,8 @@ const char* name(ScanState state) {
       return "recovered";
     case ScanState::kNewSegment:
       return "new segment";
+    case ScanState::kCopy:
+      return "copy";
     case ScanState::kDamaged:
       break;
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "loopmark/core/interrupt.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/parallel.hpp"
 
 namespace loopmark::multi_session {
@@ -140,19 +141,15 @@ std::string why_apart(std::size_t drive, const std::vector<InterSessionLoop>& in
       contradicted = contradicted || inter_session_loop.contradicted;
     }
   }
-  char text[256];
   if (contradicted) {
-    std::snprintf(text, sizeof text,
-                  "of %zu places that it would share with the others, only %zu look the same (at least %.0f %% must)",
-                  all.checked, all.agree, 100.0 * kLeastAgreement);
-  } else {
-    std::snprintf(
-        text, sizeof text,
-        "of %zu pairs of places tried with the others, the best has P(correct) %.2f; %zu that agree are needed "
-        "at %.2f",
-        all.candidates, all.best_p, min_links, options.min_loop_p);
+    return format_text(
+        "of %zu places that it would share with the others, only %zu look the same (at least %.0f %% must)",
+        all.checked, all.agree, 100.0 * kLeastAgreement);
   }
-  return text;
+  return format_text(
+      "of %zu pairs of places tried with the others, the best has P(correct) %.2f; %zu that agree are needed "
+      "at %.2f",
+      all.candidates, all.best_p, min_links, options.min_loop_p);
 }
 
 /// Solves and compares, and withdraws loops between drives that contradict each other, until none do.

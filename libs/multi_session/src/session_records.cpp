@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "loopmark/core/error.hpp"
 #include "loopmark/map_store/line_text.hpp"
@@ -15,13 +16,44 @@ namespace {
 
 std::filesystem::path drives_file(const map_store::RunFolder& run) { return run / "records/sessions.rec"; }
 
+/// The name that the file had before.
+std::filesystem::path older_file(const map_store::RunFolder& run) { return run / "records/drives.rec"; }
+
+/// Sessions follow each other, hold all scans and share no segment; their names differ and name no folder. Throws
+/// InputError with the line.
+void require_sound(const std::vector<SessionRecord>& drives, const std::vector<map_store::ScanRecord>& scans,
+                   const std::filesystem::path& file) {
+  std::size_t line = 0;
+  const auto require = [&](bool good, const std::string& problem) {
+    if (!good) {
+      throw InputError(file.string(), "line " + std::to_string(line), problem,
+                       "the run was changed or damaged: copy it again, or merge again");
+    }
+  };
+  std::set<std::string> names;
+  std::size_t next = 0;
+  for (const SessionRecord& drive : drives) {
+    ++line;
+    require(drive.first_scan == next && drive.scans > 0 && drive.scans <= scans.size() - next,
+            "scans " + std::to_string(drive.first_scan) + " and " + std::to_string(drive.scans) +
+                " more: " + std::to_string(next) + " is due, and the run has " + std::to_string(scans.size()));
+    require(next == 0 || scans[next].segment != scans[next - 1].segment, "shares a segment with the session before it");
+    require(drive.name.find('/') == std::string::npos && names.insert(drive.name).second,
+            "the name of the session is taken, or that of a folder");
+    next += drive.scans;
+  }
+  ++line;
+  require(next == scans.size(),
+          "scans " + std::to_string(next) + " to " + std::to_string(scans.size()) + " belong to no session");
+}
+
 /// The one drive of a run that was made from a log.
-SessionRecord only_drive(const map_store::RunFolder& run) {
+SessionRecord only_drive(const map_store::RunFolder& run, std::size_t scans) {
   SessionRecord drive;
   drive.name = run.name().filename().string();
   std::replace(drive.name.begin(), drive.name.end(), ' ', '_');
   drive.identity = storage::sha256_of_file(run.scan_records());
-  drive.scans = map_store::read_scan_records(run).size();
+  drive.scans = scans;
   const std::filesystem::path manifest = run / "manifest.json";
   try {
     drive.log = nlohmann::json::parse(storage::read_file(manifest)).at("input").value("log", "");
@@ -33,9 +65,11 @@ SessionRecord only_drive(const map_store::RunFolder& run) {
 
 }  // namespace
 
-std::vector<SessionRecord> read_sessions(const map_store::RunFolder& run) {
+std::vector<SessionRecord> read_sessions(const map_store::RunFolder& run,
+                                         const std::vector<map_store::ScanRecord>& scans) {
+  const std::filesystem::path file = std::filesystem::exists(older_file(run)) ? older_file(run) : drives_file(run);
   std::vector<SessionRecord> drives;
-  for (const std::string& text : storage::read_records(drives_file(run)).lines) {
+  for (const std::string& text : storage::read_records(file).lines) {
     map_store::LineReader line(text);
     SessionRecord drive;
     drive.first_scan = line.whole();
@@ -45,7 +79,11 @@ std::vector<SessionRecord> read_sessions(const map_store::RunFolder& run) {
     drive.log = line.rest();
     drives.push_back(std::move(drive));
   }
-  return drives.empty() ? std::vector<SessionRecord>{only_drive(run)} : drives;
+  if (drives.empty()) {
+    return {only_drive(run, scans.size())};
+  }
+  require_sound(drives, scans, file);
+  return drives;
 }
 
 void write_sessions(const map_store::RunFolder& run, const std::vector<SessionRecord>& drives) {

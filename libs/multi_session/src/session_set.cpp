@@ -8,17 +8,13 @@
 #include <utility>
 
 #include "loopmark/core/error.hpp"
+#include "loopmark/map_store/record_rules.hpp"
 #include "loopmark/map_store/run_records.hpp"
 
 namespace loopmark::multi_session {
 namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
-std::size_t keyframes_in(const std::vector<map_store::ScanRecord>& scans) {
-  return static_cast<std::size_t>(
-      std::count_if(scans.begin(), scans.end(), [](const map_store::ScanRecord& s) { return s.keyframe.has_value(); }));
-}
 
 std::size_t segments_in(const std::vector<map_store::ScanRecord>& scans) {
   std::size_t segments = 0;
@@ -100,12 +96,13 @@ std::vector<std::size_t> SessionSet::session_of_keyframe() const {
 }
 
 SessionSet read_session_set(const map_store::RunFolder& run) {
-  SessionSet set{read_sessions(run),
-                 map_store::read_scan_records(run),
-                 map_store::read_loop_records(run),
-                 map_store::read_loop_decisions(run),
+  map_store::RunRecords records = map_store::read_run_records(run);
+  SessionSet set{read_sessions(run, records.scans),
+                 std::move(records.scans),
+                 std::move(records.loops),
+                 std::move(records.decisions),
                  {}};
-  const std::size_t count = keyframes_in(set.scans);
+  const std::size_t count = map_store::keyframes_in(set.scans);
   if (count == 0) {
     throw InputError(run.scan_records().string(), "", "the run holds no keyframe");
   }

@@ -51,6 +51,16 @@ PlaceDescriptor place_descriptor(const std::vector<Eigen::Vector3f>& levelled_po
   return descriptor;
 }
 
+void require_sound(const PlaceDescriptor& descriptor, const PlaceOptions& options) {
+  constexpr float kLargest = 1.0F + 1e-5F;  // of a vector of length 1, with rounding
+  const bool sound = descriptor.values.size() == options.radii * options.harmonics &&
+                     std::all_of(descriptor.values.begin(), descriptor.values.end(),
+                                 [](float value) { return std::abs(value) <= kLargest; });
+  if (!sound) {
+    throw InputError("place descriptor", "", "it has another length, or numbers that are none", "compute it again");
+  }
+}
+
 double distance(const PlaceDescriptor& a, const PlaceDescriptor& b) {
   if (a.values.size() != b.values.size()) {
     throw std::invalid_argument("place descriptors of different sizes");

@@ -29,9 +29,22 @@ bool is_whole(std::string_view line) {
 }  // namespace
 
 RecordLines read_records(const std::filesystem::path& path) {
+  RecordLines records = read_sound_records(path);
+  if (records.damaged) {
+    throw InputError(path.string(), "line " + std::to_string(records.lines.size() + 1),
+                     "damaged record in the middle of the file",
+                     "copy it again; what was interrupted may also delete it: its records are computed again");
+  }
+  return records;
+}
+
+RecordLines read_sound_records(const std::filesystem::path& path) {
   RecordLines records;
   if (!std::filesystem::exists(path)) {
     return records;
+  }
+  if (!std::filesystem::is_regular_file(path)) {
+    throw InputError(path.string(), "", "cannot read: not a file but a folder, a pipe or a device");
   }
   const std::string content = read_file(path);
   std::size_t at = 0;
@@ -40,11 +53,8 @@ RecordLines read_records(const std::filesystem::path& path) {
     const bool last = end == std::string::npos || end + 1 == content.size();
     const std::string_view line = std::string_view(content).substr(at, end == std::string::npos ? end : end - at);
     if (end == std::string::npos || !is_whole(line)) {
-      if (!last) {
-        throw InputError(path.string(), "line " + std::to_string(records.lines.size() + 1),
-                         "damaged record in the middle of the file", "delete the file: its records are computed again");
-      }
-      records.torn = true;
+      records.torn = last;
+      records.damaged = !last;
       return records;
     }
     records.lines.emplace_back(line.substr(9));
@@ -93,6 +103,13 @@ void RecordWriter::append(std::string_view payload) {
                        "what is done is kept; make room and run the same command again");
     }
     done += static_cast<std::size_t>(written);
+  }
+}
+
+void RecordWriter::sync() const {
+  if (::fdatasync(file_) != 0 && errno != EINVAL) {  // EINVAL: this file system cannot
+    throw InputError(path_.string(), "", std::string("cannot write to the disk: ") + std::strerror(errno),
+                     "what is done is kept; make room and run the same command again");
   }
 }
 

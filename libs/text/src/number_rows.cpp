@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/storage/files.hpp"
 
 namespace loopmark::text {
@@ -106,11 +107,7 @@ void for_each_row(const std::filesystem::path& path, std::span<const std::size_t
   }
 }
 
-void append_number(std::string& line, double value) {
-  char text[64];
-  const int length = std::snprintf(text, sizeof text, "%.16f", value);
-  line.append(text, static_cast<std::size_t>(length));
-}
+void append_number(std::string& line, double value) { line += format_text("%.16f", value); }
 
 void append_motion(std::string& line, const Pose& pose) {
   const Eigen::Matrix4d& matrix = pose.matrix();

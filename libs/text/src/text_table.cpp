@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "loopmark/core/number_text.hpp"
+
 namespace loopmark::text {
 namespace {
 
@@ -70,9 +72,7 @@ std::string fixed(double value, int decimals) {
   if (std::isnan(value)) {
     return "-";
   }
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
+  return format_text("%.*f", decimals, value);
 }
 
 std::string percent(double share, int decimals) {

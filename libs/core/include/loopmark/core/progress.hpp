@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace loopmark {
@@ -19,13 +20,15 @@ using LogSink = std::function<void(Severity, const std::string&)>;
 void set_log_sink(LogSink sink);
 void log(Severity severity, const std::string& message);
 
-/// Counts work done and prints a line with rate and time left to standard error: at most five times a
-/// second on a terminal (rewriting the line), every ten seconds elsewhere, nothing in the first second
-/// or when progress is off.
+/// A phase of the work under way: prints a line with its name, what is done, rate and time left to standard error, from
+/// the second second on, whether units are finished meanwhile or not: five times a second on a terminal (rewriting the
+/// line), every two seconds elsewhere, never when progress is off. Of phases within phases the innermost is shown.
 class Progress {
  public:
-  /// `what` names the units: "scans", "pairs". total 0: not known.
-  Progress(std::string what, std::size_t total);
+  /// `phase`: "odometry"; `units`: "scans"; total 0: not known.
+  explicit Progress(std::string phase, std::string units = "", std::size_t total = 0);
+  /// A phase that its units name.
+  Progress(std::string units, std::size_t total);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -38,17 +41,8 @@ class Progress {
   static void set_enabled(bool enabled);
 
  private:
-  using Clock = std::chrono::steady_clock;
-  void show(Clock::time_point now);
-
-  std::string what_;
-  std::size_t total_;
-  std::size_t done_ = 0;
-  std::string note_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_ = start_;
-  bool printed_ = false;
-  bool finished_ = false;
+  struct Line;
+  std::unique_ptr<Line> line_;  ///< null once it is finished
 };
 
 /// Seconds since it was made or reset.

@@ -63,10 +63,11 @@ class RegistrationAlgorithm {
 
 using AlgorithmList = std::vector<std::unique_ptr<RegistrationAlgorithm>>;
 
-/// Descriptors made elsewhere: keypoints and descriptors of a frame are read from folder/SESSION/FRAME.npz
-/// (read_descriptors), FRAME as a plain number or with six digits. Algorithms on them are called "NAME@DOMAIN".
+/// Whose descriptors algorithms use. With a folder those made elsewhere: keypoints and descriptors of a frame are read
+/// from folder/SESSION/FRAME.npz (read_descriptors), FRAME as a plain number or with six digits. Without one `domain`
+/// is the name of a descriptor (feature_registration::descriptors()). Algorithms on them are called "NAME@DOMAIN".
 struct DescriptorSource {
-  std::string domain;  ///< empty: none, FPFH
+  std::string domain;  ///< empty: the descriptor of the algorithm's own options
   std::filesystem::path folder;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Programs that compete through a line protocol on their standard input and output (docs/evaluation.md).
+/// Programs that compete through a line protocol on their standard input and output (docs/guide/evaluation.md).
 #pragma once
 
 #include <filesystem>

@@ -30,7 +30,10 @@ std::string to_string(LoopOverride loop_override);
 std::optional<LoopOverride> loop_override_of(const std::vector<LoopDecision>& decisions, std::size_t source,
                                              std::size_t target);
 
-/// The decisions kept in a run, none where nobody decided anything. Throws InputError when the file is damaged.
+std::filesystem::path decisions_file(const RunFolder& run);
+
+/// The decisions kept in a run, none where nobody decided anything, whatever keyframes they name (read_run_records
+/// holds them against the others). Throws InputError when the file is damaged.
 std::vector<LoopDecision> read_loop_decisions(const RunFolder& run);
 
 /// Replaces the decisions kept in a run that is being made.

@@ -18,7 +18,8 @@ enum class ScanState {
   kTracked,     ///< aligned to the local map
   kRecovered,   ///< tracking was lost; placed by global registration to a keyframe
   kNewSegment,  ///< tracking was lost and nothing placed it: the first scan of a new segment
-  kDamaged      ///< could not be read or used; its pose is interpolated
+  kDamaged,     ///< could not be read or used; its pose is interpolated
+  kCopy         ///< the very points of the scan before it, whose pose it has
 };
 const char* name(ScanState state);
 

@@ -3,14 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace loopmark::map_store {
 
-/// The folder of a run. While it is made it is called RUN.partial; when it is whole it is renamed to RUN.
+class FolderHold;
+
+/// The folder of a run. While it is made it is called RUN.partial and held by one process; when it is whole it is
+/// renamed to RUN.
 class RunFolder {
  public:
-  /// A new run. Throws InputError when RUN or RUN.partial is there, or cannot be made.
+  /// A new run. What a killed process left as RUN.partial is begun anew unless it can be resumed (records/job.json).
+  /// Throws InputError when RUN is there, RUN.partial can be resumed or is held by another process, or cannot be made.
   static RunFolder create(const std::filesystem::path& run);
 
   /// A run that was interrupted; `run` with or without ".partial". Throws InputError when there is none, and says so
@@ -20,8 +25,8 @@ class RunFolder {
   /// A run that is whole. Throws InputError when it is not there or not whole.
   static RunFolder open(const std::filesystem::path& run);
 
-  /// A run that is to take the place of `run`: RUN.partial beside it. Throws InputError when RUN is not whole or
-  /// RUN.partial is there.
+  /// A run that is to take the place of `run`: RUN.partial beside it. Throws InputError when RUN is not whole, and as
+  /// create() does.
   static RunFolder revise(const std::filesystem::path& run);
 
   const std::filesystem::path& path() const { return path_; }  ///< where it is now
@@ -33,7 +38,7 @@ class RunFolder {
   /// keyframes/000012.pcd: the points; .prepared: what registration needs of them.
   std::filesystem::path keyframe(std::size_t number, const std::string& ending) const;
 
-  /// Gives the run its name.
+  /// Gives the run its name, once all of it is on the disk.
   void finish();
 
   /// The same for a revised run; the one that had the name is kept as RUN.before-1 (or -2, ...), which is returned.
@@ -41,9 +46,12 @@ class RunFolder {
 
  private:
   RunFolder(std::filesystem::path path, std::filesystem::path name);
+  static RunFolder make(const std::filesystem::path& run);
+  void hold();
 
   std::filesystem::path path_;
   std::filesystem::path name_;
+  std::shared_ptr<const FolderHold> hold_;  ///< while it is made
 };
 
 }  // namespace loopmark::map_store

@@ -23,8 +23,10 @@ struct SessionRecord {
   std::size_t scans = 0;
 };
 
-/// The drives that a whole run holds. Throws InputError when a record is damaged.
-std::vector<SessionRecord> read_sessions(const map_store::RunFolder& run);
+/// The drives that a whole run holds, whose scans are given. Throws InputError when a record is damaged or does not fit
+/// the scans.
+std::vector<SessionRecord> read_sessions(const map_store::RunFolder& run,
+                                         const std::vector<map_store::ScanRecord>& scans);
 
 /// records/sessions.rec of a run that is being made.
 void write_sessions(const map_store::RunFolder& run, const std::vector<SessionRecord>& drives);

@@ -47,6 +47,10 @@ struct PlaceDescriptor {
   static PlaceDescriptor from_bytes(const std::string& bytes);
 };
 
+/// Throws InputError unless the descriptor is one that place_descriptor() can give with these options: as many numbers,
+/// each from -1 to 1.
+void require_sound(const PlaceDescriptor& descriptor, const PlaceOptions& options);
+
 /// Euclidean distance, 0 (alike) to 2. Throws std::invalid_argument when the sizes differ.
 double distance(const PlaceDescriptor& a, const PlaceDescriptor& b);
 
