@@ -92,7 +92,7 @@ class LargeRun {
 
   void write_loops() {
     storage::RecordWriter file(folder_.loop_records());
-    const std::vector<map_store::LoopRecord> known = map_store::read_loop_records(model_);
+    const std::vector<map_store::LoopRecord> known = map_store::read_run_records(model_).loops;
     const std::size_t lap = scan_of_keyframe_.size() / 2;
     for (std::size_t k = lap; k < scan_of_keyframe_.size(); k += 2) {
       for (const std::size_t shift : {0U, 3U}) {

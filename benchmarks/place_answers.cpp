@@ -115,8 +115,8 @@ void write_answers(std::ofstream& out, std::size_t scan,
 
 int run(int argc, char** argv) {
   const map_store::RunFolder folder = map_store::RunFolder::open(argv[1]);
-  mapping::SolvedMap solved =
-      mapping::solve_map(map_store::read_scan_records(folder), map_store::read_loop_records(folder), {}, {});
+  const map_store::RunRecords records = map_store::read_run_records(folder);
+  mapping::SolvedMap solved = mapping::solve_map(records.scans, records.loops, {}, {});
   const auto map = localization::open_place_map(folder, solved, {});
   const mapping::MapTruth truth(solved.T_map_scan, io::read_trajectory(argv[2]).poses);
   const Reference reference{

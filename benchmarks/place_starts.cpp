@@ -133,8 +133,8 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t end) {
 
 int run(int argc, char** argv) {
   const map_store::RunFolder folder = map_store::RunFolder::open(argv[1]);
-  const mapping::SolvedMap solved =
-      mapping::solve_map(map_store::read_scan_records(folder), map_store::read_loop_records(folder), {}, {});
+  const map_store::RunRecords records = map_store::read_run_records(folder);
+  const mapping::SolvedMap solved = mapping::solve_map(records.scans, records.loops, {}, {});
   std::unique_ptr<io::DriveLog> log = io::open_log(argv[3]);
   const odometry::Compensation compensation = app::compensation_of(*log, {});
   const bool elsewhere = std::string(argv[4]) == "-";

@@ -19,7 +19,7 @@ then a drill of --events, the drive of the other direction taking part. --asked:
 farther than 10 m from the map do not count.
 fitting: the same logs of small towns, single scans only, for scripts/fit_places.py; one file of answers a town.
 What is in WORK already is taken as it is; --again asks the maps anew. Whether a pose was given is what the relocalizer
-decides (docs/relocalization.md); right within 5 deg. table tells what answers that are there come to.
+decides (docs/results/relocalization.md); right within 5 deg. table tells what answers that are there come to.
 """
 import argparse
 import json

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Our estimators and those of other libraries on the same matches (our FPFH, mutual) of a set of pairs: recall
-// (RE < 5 deg, TE < 0.6 m) before and after the same ICP, wall and processor time a pair.
+// Our estimators and those of other libraries on the same matches (our FPFH, or with fsc our Fourier shape contexts;
+// mutual) of a set of pairs: recall (RE < 5 deg, TE < 0.6 m) before and after the same ICP, wall and processor time a
+// pair.
 //
-//   same_matches PAIRS.txt LOGS SESSIONS.txt [EVERY [ground|no_ground [SKIP]]]
+//   same_matches PAIRS.txt LOGS SESSIONS.txt [EVERY [ground|no_ground|fsc [SKIP]]]
 //
 // LOGS/<session name>/velodyne/%06d.{pcd,bin}; SESSIONS.txt: "number name" lines. EVERY: only each n-th pair. SKIP:
 // estimators whose name has this in it are left out.
@@ -133,11 +134,12 @@ void print(const std::vector<NamedEstimator>& all, const std::vector<Row>& rows)
 
 int run(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "usage: same_matches PAIRS.txt LOGS SESSIONS.txt [EVERY [ground|no_ground [SKIP]]]\n");
+    std::fprintf(stderr, "usage: same_matches PAIRS.txt LOGS SESSIONS.txt [EVERY [ground|no_ground|fsc [SKIP]]]\n");
     return 2;
   }
   const auto every = static_cast<std::size_t>(argc > 4 ? std::max(1, std::atoi(argv[4])) : 1);
   feature_registration::FeatureRegistrationOptions options = feature_registration::named_algorithm("ransac_mutual");
+  options.descriptor = argc > 5 && std::string(argv[5]) == "fsc" ? "fsc" : "fpfh";
   options.match_ground = !(argc > 5 && std::string(argv[5]) == "no_ground");
   const auto pairs = pair_sets::read_pair_set(argv[1]);
   const auto names = read_sessions(argv[3]);

@@ -136,8 +136,9 @@ int main(int argc, char** argv) {
   }
   try {
     const map_store::RunFolder folder = map_store::RunFolder::open(argv[1]);
-    Run run{map_store::read_scan_records(folder),
-            map_store::read_loop_records(folder),
+    map_store::RunRecords records = map_store::read_run_records(folder);
+    Run run{std::move(records.scans),
+            std::move(records.loops),
             {},
             io::read_trajectory(folder / "records/truth.tum").poses};
     run.keyframes = mapping::keyframes_of(run.scans);

@@ -1,7 +1,7 @@
 # Installation, the package that find_package(loopmark) finds, and the Debian packages.
 include(CMakePackageConfigHelpers)
 
-# What stands behind a linked target: the arguments of find_dependency, and the Debian package with its headers.
+# What stands behind a linked target: the arguments of find_dependency (none: the linker finds it), and the Debian package with its headers.
 # A target that no row matches ends the configuration, so that the installed package cannot miss a dependency.
 set(LOOPMARK_DEPENDENCIES
   "^Eigen3::|Eigen3 3.4|libeigen3-dev"
@@ -13,9 +13,13 @@ set(LOOPMARK_DEPENDENCIES
   "^yaml-cpp|yaml-cpp|libyaml-cpp-dev"
   "^PNG::|PNG|libpng-dev"
   "^ZLIB::|ZLIB|zlib1g-dev"
+  "^lz4$||liblz4-dev"
+  "^BZip2::|BZip2|libbz2-dev"
+  "^SQLite::|SQLite3|libsqlite3-dev"
   "^zstd::|zstd|libzstd-dev"
   "^hwy::|hwy|libhwy-dev"
   "^kissfft::|kissfft COMPONENTS float|libkissfft-dev"
+  "^cpp-httplib$||libcpp-httplib-dev"
   "^embree|embree 3|libembree-dev"
   "octomap|octomap|liboctomap-dev"
   "octomath|octomap|liboctomap-dev"
@@ -37,7 +41,9 @@ foreach(target IN LISTS linked)
       list(GET row 2 debian)
       string(REPLACE "\\1" "${name}" arguments "${arguments}")
       string(REPLACE "\\1" "${name}" debian "${debian}")
-      list(APPEND find_lines "find_dependency(${arguments})")
+      if(arguments)
+        list(APPEND find_lines "find_dependency(${arguments})")
+      endif()
       list(APPEND debian_dependencies ${debian})
       set(known TRUE)
       break()
@@ -80,6 +86,25 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${CMAKE_INSTALL_DATA
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libloopmark-dev
   RENAME copyright COMPONENT development)
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
+# Manual pages and completion of commands, from what the program says of itself.
+find_package(Python3 QUIET COMPONENTS Interpreter)
+if(Python3_FOUND)
+  set(manual_dir ${PROJECT_BINARY_DIR}/manual)
+  add_custom_command(OUTPUT ${manual_dir}/completions/loopmark
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/make_manual.py $<TARGET_FILE:loopmark> ${manual_dir}
+    DEPENDS loopmark ${PROJECT_SOURCE_DIR}/scripts/make_manual.py ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+    COMMENT "Writing manual pages and completion")
+  add_custom_target(loopmark_manual ALL DEPENDS ${manual_dir}/completions/loopmark)
+  install(DIRECTORY ${manual_dir}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+  install(FILES ${manual_dir}/completions/loopmark DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    COMPONENT program)
+  install(FILES ${manual_dir}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+endif()
 
 set(CPACK_PACKAGE_NAME loopmark)
 set(CPACK_PACKAGE_VENDOR "loopmark contributors")

@@ -21,6 +21,7 @@ function(loopmark_room NAME)
   target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} ${scope} ${deps} ${ROOM_PUBLIC})
+  target_compile_features(${target} ${scope} cxx_std_20)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${NAME})
   set_property(GLOBAL APPEND PROPERTY LOOPMARK_ROOMS ${NAME})
   set_property(GLOBAL APPEND PROPERTY LOOPMARK_LINKED ${ROOM_PUBLIC} ${ROOM_PRIVATE})

@@ -190,11 +190,13 @@ Action set_up_balance(CLI::App& command, const Globals& globals) {
   command.add_option("--refine", a->refine, "reference motions: none, icp, or z (height only, for nuScenes)")
       ->check(CLI::IsMember({"none", "icp", "z"}));
   command.add_option("--seed", a->seed, "seed of everything random; default: balance.seed");
-  return [a, &globals] {
-    pair_sets::BalanceOptions options = globals.options().balance;
-    options.seed = a->seed >= 0 ? static_cast<std::uint64_t>(a->seed) : options.seed;
-    return Balancer(*a, options).run();
-  };
+  return interruptible(
+      [a, &globals] {
+        pair_sets::BalanceOptions options = globals.options().balance;
+        options.seed = a->seed >= 0 ? static_cast<std::uint64_t>(a->seed) : options.seed;
+        return Balancer(*a, options).run();
+      },
+      [] { return "the candidates found so far are kept; the same command goes on with them"; });
 }
 
 }  // namespace loopmark::app

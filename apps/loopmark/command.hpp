@@ -31,6 +31,12 @@ struct Globals {
 /// What a subcommand does once the command line is parsed; returns the exit code.
 using Action = std::function<int()>;
 
+/// The action, which says what `kept` says when the user interrupts it: what is left and how to go on.
+Action interruptible(Action action, std::function<std::string()> kept);
+
+/// What an interrupted run of loopmark map leaves, and the command that goes on with it.
+std::string kept_of_run(const std::filesystem::path& run);
+
 /// One subcommand: declares its options on `command` and returns what to run when it was chosen.
 struct Command {
   const char* name;

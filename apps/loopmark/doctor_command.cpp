@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "loopmark/io/log_formats.hpp"
 #include "loopmark/io/log_report.hpp"
 #include "loopmark/workflows/compensation_of_log.hpp"
 
@@ -18,6 +19,7 @@ struct DoctorArguments {
 
 constexpr const char* kExamples = R"(Examples:
   loopmark doctor drives/day1                       what the log is, what is wrong with it, what to run next
+  loopmark doctor my.bag                            topics, which one would be taken, and what its points' times mean
   loopmark doctor drives/day1.rawlog --json         the same for programs
   loopmark doctor /data/nuscenes                    the drives of a data set: what is there, what is missing
   loopmark doctor logs --sessions set/sessions.txt  the logs that a set of pairs names
@@ -25,6 +27,7 @@ Nothing is written.)";
 
 int doctor_of_log(const io::DriveLog& log, bool json) {
   io::LogReport report = io::examine_log(log);
+  report.frame_problem = workflows::frame_problem_of_log(log);
   report.compensation = workflows::describe_measurement(workflows::compensation_of_log(log));
   std::fputs((json ? io::report_json(report) : io::report_text(report)).c_str(), stdout);
   return report.usable > 0 ? 0 : static_cast<int>(ExitCode::kInput);
@@ -65,10 +68,10 @@ int doctor(const DoctorArguments& arguments, const io::DatasetOptions& options) 
 
 Action set_up_doctor(CLI::App& command, const Globals& globals) {
   auto arguments = std::make_shared<DoctorArguments>();
-  command.add_option("LOG", arguments->path, "drive log (folder or .rawlog), or root folder of a data set")->required();
+  command.add_option("LOG", arguments->path, "drive log of any format, or root folder of a data set")->required();
   command.add_option("--sessions", arguments->sessions, "file that names the log below LOG of each session number");
   command.add_flag("--json", arguments->json, "answer as JSON");
-  command.footer(kExamples);
+  command.footer(std::string(kExamples) + "\nDrive logs are:\n" + io::log_formats_text());
   return [arguments, &globals] {
     const workflows::ProgramOptions all = globals.options();
     io::DatasetOptions options = all.dataset;

@@ -96,7 +96,7 @@ int drill(const DrillArguments& a, const Globals& globals) {
   job.run = is_run(a.what) ? a.what : map_of(a, partial, globals, options);
   const workflows::DrillResult result = workflows::run_drill(job, a.what.string(), options);
   fs::create_directories(partial);
-  workflows::write_drill(partial, result);
+  workflows::write_drill(partial, job.run, result);
   storage::write_file_atomically(partial / "config.yaml", workflows::options_as_yaml(options));
   fs::rename(partial, a.output);
   std::printf("%s%zu events (of %zu asked for); report %s\n", workflows::drill_table(result).c_str(),
@@ -104,12 +104,23 @@ int drill(const DrillArguments& a, const Globals& globals) {
   return 0;
 }
 
+std::string kept_of_drill(const DrillArguments& a) {
+  const fs::path partial = a.output.string() + ".partial";
+  if (!fs::exists(partial)) {
+    return "nothing is written; start again with the same command";
+  }
+  const fs::path map = partial / "map";
+  return fs::exists(map) ? "the map is whole; go on with: loopmark drill " + map.string() + " -o NEW_FOLDER"
+                         : kept_of_run(map) + ", then: loopmark drill " + map.string() + " -o NEW_FOLDER";
+}
+
 }  // namespace
 
 Action set_up_drill(CLI::App& command, const Globals& globals) {
   auto arguments = std::make_shared<DrillArguments>();
   declare(command, *arguments);
-  return [arguments, &globals] { return drill(*arguments, globals); };
+  return interruptible([arguments, &globals] { return drill(*arguments, globals); },
+                       [arguments] { return kept_of_drill(*arguments); });
 }
 
 }  // namespace loopmark::app

@@ -37,9 +37,12 @@ class Collection {
           name, pair_sets::motions_of_pairs(set_.pairs, pair_sets::read_motions(file), file)));
     }
     for (const std::string& name : all_names()) {
-      if (name == "engine" || arguments_.features.empty()) {
+      if (name == "engine" || (arguments_.features.empty() && arguments_.descriptors.empty())) {
         add(by_name(name, {}));
         continue;
+      }
+      for (const std::string& descriptor : arguments_.descriptors) {
+        add(by_name(name, {descriptor, {}}));
       }
       for (const std::string& text : arguments_.features) {
         const auto [domain, folder] = named(text, std::filesystem::path(text).filename().string());

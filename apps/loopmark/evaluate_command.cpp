@@ -22,7 +22,7 @@ Examples:
   loopmark evaluate pairs.txt --data LOGS --negatives negatives.txt -o RESULT
       the registration engine on the pairs of a set; sessions.txt beside the set names the log of each session
   loopmark evaluate pairs.txt --data LOGS --algorithms engine --command "mine=python3 mine.py" --refine icp -o RESULT
-      beside a program of yours that speaks the line protocol (docs/evaluation.md), each with and without ICP
+      beside a program of yours that speaks the line protocol (docs/guide/evaluation.md), each with and without ICP
   loopmark evaluate pairs.txt --data LOGS --algorithms ransac-ablation --repeats 4 --refine icp -o RESULT
   loopmark evaluate paper ransac-ablation RESULT -o TABLES
       the paper's ablation of RANSAC, with the convex hulls of repeated runs
@@ -54,9 +54,14 @@ void add_run_options(CLI::App& command, EvaluateArguments& a) {
   command
       .add_option("--refine", a.refine, "each algorithm once more with: icp, sym-icp, bbr, plane-icp, gicp; by commas")
       ->delimiter(',');
+  command
+      .add_option("--descriptor", a.descriptors,
+                  "fsc, fpfh, by commas: the paper's variants use each of them and are called VARIANT@NAME; without it "
+                  "fsc, and the variants keep their names")
+      ->delimiter(',');
   command.add_option("--features", a.features,
-                     "NAME=FOLDER with descriptors FOLDER/SESSION/FRAME.npz: the paper's variants use them in place of "
-                     "FPFH and are called VARIANT@NAME; may be repeated");
+                     "NAME=FOLDER with descriptors FOLDER/SESSION/FRAME.npz (loopmark describe, or any network): the "
+                     "paper's variants use them and are called VARIANT@NAME; may be repeated");
   command.add_option("--repeats", a.repeats,
                      "runs of each variant of the paper with other seeds, NAME#1, NAME#2, ... (1)");
   command.add_option("--time-limit", a.time_limit_s, "of a program for one pair, seconds (30)");
@@ -139,8 +144,13 @@ Action set_up_evaluate(CLI::App& command, const Globals& globals) {
   set_up_merge(command, arguments->merge, arguments->chosen);
   set_up_paper(command, arguments->paper, arguments->chosen);
   set_up_compare(command, arguments->compare, arguments->chosen);
-  return
-      [arguments, &globals] { return arguments->chosen ? arguments->chosen() : run_evaluate(arguments->run, globals); };
+  return interruptible(
+      [arguments, &globals] { return arguments->chosen ? arguments->chosen() : run_evaluate(arguments->run, globals); },
+      [arguments]() -> std::string {
+        const std::filesystem::path& output = arguments->run.output;
+        return output.empty() ? "nothing is written; -o RESULT keeps what is done"
+                              : output.string() + " keeps what is done; the same command goes on with it";
+      });
 }
 
 }  // namespace loopmark::app

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "loopmark/cloud/voxel.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/parallel.hpp"
 
 namespace loopmark::app {
@@ -89,20 +90,15 @@ report::Image picture_of(std::size_t index, const std::vector<const evaluation::
 }
 
 std::string errors_of(const evaluation::Outcome& outcome) {
-  char text[160];
   if (!outcome.answer.has_motion()) {
     return outcome.algorithm + ": " + to_string(outcome.answer.status);
   }
-  if (outcome.negative) {
-    std::snprintf(text, sizeof text, ": answered");
-  } else {
-    std::snprintf(text, sizeof text, ": TE %.2f m, RE %.1f deg", outcome.error.translation_m,
-                  outcome.error.rotation_deg);
-  }
-  std::string all = outcome.algorithm + text;
+  std::string all = outcome.algorithm;
+  all += outcome.negative
+             ? ": answered"
+             : format_text(": TE %.2f m, RE %.1f deg", outcome.error.translation_m, outcome.error.rotation_deg);
   if (std::isfinite(outcome.answer.p_correct)) {
-    std::snprintf(text, sizeof text, ", P %.2f", outcome.answer.p_correct);
-    all += text;
+    all += format_text(", P %.2f", outcome.answer.p_correct);
   }
   return all;
 }
@@ -111,11 +107,8 @@ std::string caption_of(std::size_t index, const std::vector<const evaluation::Ou
                        const evaluation::StoredResult& result) {
   std::string text = "Pair " + std::to_string(index) + " (" + to_string(result.set.key(index)) + ")";
   if (index < result.set.pairs.size()) {
-    char facts[96];
     const pair_sets::RegistrationPair& pair = result.set.pairs[index];
-    std::snprintf(facts, sizeof facts, ", %.1f m apart, overlap %.2f", pair.motion.head<3>().norm(),
-                  pair.overlap_symmetric);
-    text += facts;
+    text += format_text(", %.1f m apart, overlap %.2f", pair.motion.head<3>().norm(), pair.overlap_symmetric);
   } else {
     text += ", two different places";
   }

@@ -20,6 +20,7 @@ struct EvaluateArguments {
   std::vector<std::string> algorithms;
   std::vector<std::string> motions;
   std::vector<std::string> features;
+  std::vector<std::string> descriptors;
   std::vector<std::string> commands;
   std::vector<std::string> refine;
   std::size_t repeats = 1;

@@ -6,9 +6,11 @@
 #include "commands.hpp"
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/printable.hpp"
+#include "loopmark/map_export/products.hpp"
+#include "loopmark/map_store/run_in_making.hpp"
 #include "loopmark/workflows/map_job.hpp"
 #include "loopmark/workflows/merge_run.hpp"
-#include "loopmark/workflows/run_in_making.hpp"
 #include "merge_text.hpp"
 
 namespace loopmark::app {
@@ -30,7 +32,7 @@ constexpr const char* kExamples = R"(Examples:
                                                               another sensor; options as in: loopmark config dump
 The log is mapped with the run's options (but for those of reading logs and of compensation), as by loopmark map. When it
 does not belong to the run, nothing is changed, and its own map is kept as OUTPUT.drive; so it is when the program is
-interrupted: go on with loopmark map --resume OUTPUT.drive, then loopmark merge. A drive of the run that no longer hangs
+interrupted: the same command goes on with it. A drive of the run that no longer hangs
 together with the others (loops vetoed since, other options) is left out with a warning; the old run still holds it.)";
 
 void declare(CLI::App& command, ExtendArguments& a) {
@@ -61,6 +63,20 @@ workflows::ProgramOptions options_for_log(const fs::path& run, const Globals& gl
   return options;
 }
 
+/// Makes the log's own map, or goes on with what a killed process left of it.
+void map_the_log(const ExtendArguments& a, const Globals& globals, const fs::path& drive) {
+  const fs::path log = fs::absolute(a.log);
+  if (fs::exists(drive / "manifest.json") &&
+      map_export::input_of_manifest(map_store::RunFolder::open(drive)).log == log.string()) {
+    return;
+  }
+  if (workflows::log_of_interrupted(drive) == log) {
+    workflows::resume_map(drive, globals.arguments);
+  } else {
+    workflows::start_map(a.log, a.truth, drive, globals.arguments, options_for_log(a.run, globals));
+  }
+}
+
 /// The run and the log's map as one. Throws InputError, having changed nothing, when the log's drive does not belong;
 /// an earlier drive that no longer hangs together with the others is left out with a warning.
 workflows::MergeOutcome join(const ExtendArguments& a, const Globals& globals, const fs::path& drive,
@@ -68,7 +84,7 @@ workflows::MergeOutcome join(const ExtendArguments& a, const Globals& globals, c
   const workflows::MergeInput input = workflows::read_runs({a.run, drive});
   const workflows::ProgramOptions options =
       config::load<workflows::ProgramOptions>(a.run / "config.yaml", globals.settings);
-  workflows::RunInMaking run(a.output.empty() ? map_store::RunFolder::revise(a.run)
+  map_store::RunInMaking run(a.output.empty() ? map_store::RunFolder::revise(a.run)
                                               : map_store::RunFolder::create(a.output));
   workflows::MergeOutcome outcome =
       workflows::merge_runs(input, run.folder(), options, a.one_frame, {"extend", a.run.string(), a.log.string()});
@@ -94,12 +110,12 @@ int extend(const ExtendArguments& a, const Globals& globals) {
     throw InputError(a.output.string(), "", "is there already and is never overwritten", "choose another name for -o");
   }
   const fs::path drive = drive_beside(a.output.empty() ? a.run : a.output);
-  workflows::start_map(a.log, a.truth, drive, globals.arguments, options_for_log(a.run, globals));
+  map_the_log(a, globals, drive);
   fs::path before;
   try {
     print_merge(join(a, globals, drive, before));
   } catch (const InputError&) {
-    std::fprintf(stderr, "nothing is changed; the log's own map is %s\n", drive.c_str());
+    std::fprintf(stderr, "nothing is changed; the log's own map is %s\n", printable(drive.string()).c_str());
     throw;
   }
   if (!before.empty()) {
@@ -109,12 +125,24 @@ int extend(const ExtendArguments& a, const Globals& globals) {
   return 0;
 }
 
+/// The run is as it was; the log's own map may be there in part or whole.
+std::string kept_of_extension(const ExtendArguments& a) {
+  const fs::path drive = drive_beside(a.output.empty() ? a.run : a.output);
+  const std::string merge = "loopmark merge " + a.run.string() + " " + drive.string() + " -o NEW_RUN";
+  if (fs::exists(drive)) {
+    return a.run.string() + " is as it was, the log's own map is " + drive.string() + "; go on with: " + merge;
+  }
+  const bool kept = fs::exists(drive.string() + ".partial");
+  return a.run.string() + " is as it was; " + kept_of_run(drive) + (kept ? ", then: " + merge : "");
+}
+
 }  // namespace
 
 Action set_up_extend(CLI::App& command, const Globals& globals) {
   auto arguments = std::make_shared<ExtendArguments>();
   declare(command, *arguments);
-  return [arguments, &globals] { return extend(*arguments, globals); };
+  return interruptible([arguments, &globals] { return extend(*arguments, globals); },
+                       [arguments] { return kept_of_extension(*arguments); });
 }
 
 }  // namespace loopmark::app

@@ -166,7 +166,8 @@ int loops(const LoopsArguments& a, const Globals& globals) {
 Action set_up_loops(CLI::App& command, const Globals& globals) {
   auto arguments = std::make_shared<LoopsArguments>();
   declare(command, *arguments);
-  return [arguments, &globals] { return loops(*arguments, globals); };
+  return interruptible([arguments, &globals] { return loops(*arguments, globals); },
+                       [] { return "the run is as it was; start again with the same command"; });
 }
 
 }  // namespace loopmark::app

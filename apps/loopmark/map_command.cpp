@@ -18,6 +18,7 @@ struct MapArguments {
 
 constexpr const char* kExamples = R"(Examples:
   loopmark map drives/day1 -o runs/day1                        a folder of scans (KITTI, PCD, PLY) or an MRPT rawlog
+  loopmark map my.bag -o runs/yard                             ROS 1 and ROS 2 bags, MCAP, packet captures
   loopmark map drive.rawlog -o runs/yard --set log.rate_hz=20  options as in: loopmark config dump
   loopmark map drives/day1 -o runs/day1 --truth truth.tum      errors against a known trajectory
   loopmark map --resume runs/day1                              go on with a run that was interrupted
@@ -25,10 +26,10 @@ The run folder holds trajectory.tum, map.bt (OctoMap), cloud.ply, loops.csv, rep
 RUN.partial until it is whole. Nothing is ever overwritten.)";
 
 void declare(CLI::App& command, MapArguments& a) {
-  command.add_option("LOG", a.log, "drive log: a folder of scans or a rawlog");
+  command.add_option("LOG", a.log, "drive log of any format (they are listed by: loopmark doctor --help)");
   command.add_option("-o,--output", a.output, "folder of the run; must not exist");
   command.add_option("--resume", a.resume, "go on with this interrupted run")->excludes("-o");
-  command.add_option("--truth", a.truth, "true trajectory (TUM or KITTI), one pose a scan");
+  command.add_option("--truth", a.truth, "true trajectory: TUM, joined by time, or KITTI, one pose a scan");
   command.footer(kExamples);
 }
 
@@ -54,7 +55,9 @@ int map(const MapArguments& a, const Globals& globals) {
 Action set_up_map(CLI::App& command, const Globals& globals) {
   auto arguments = std::make_shared<MapArguments>();
   declare(command, *arguments);
-  return [arguments, &globals] { return map(*arguments, globals); };
+  return interruptible(
+      [arguments, &globals] { return map(*arguments, globals); },
+      [arguments] { return kept_of_run(arguments->resume.empty() ? arguments->output : arguments->resume); });
 }
 
 }  // namespace loopmark::app

@@ -6,8 +6,8 @@
 #include "commands.hpp"
 #include "loopmark/config/options_io.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/map_store/run_in_making.hpp"
 #include "loopmark/workflows/merge_run.hpp"
-#include "loopmark/workflows/run_in_making.hpp"
 #include "merge_text.hpp"
 
 namespace loopmark::app {
@@ -50,7 +50,7 @@ int merge(const MergeArguments& a, const Globals& globals) {
       config::load<workflows::ProgramOptions>(a.runs.front() / "config.yaml", globals.settings);
   std::vector<std::string> words = {"merge"};
   words.insert(words.end(), a.runs.begin(), a.runs.end());
-  workflows::RunInMaking run(map_store::RunFolder::create(a.output));
+  map_store::RunInMaking run(map_store::RunFolder::create(a.output));
   workflows::MergeOutcome outcome = workflows::merge_runs(input, run.folder(), options, a.one_frame, words);
   run.finish();
   outcome.run = run.folder().path();
@@ -63,7 +63,9 @@ int merge(const MergeArguments& a, const Globals& globals) {
 Action set_up_merge(CLI::App& command, const Globals& globals) {
   auto arguments = std::make_shared<MergeArguments>();
   declare(command, *arguments);
-  return [arguments, &globals] { return merge(*arguments, globals); };
+  return interruptible(
+      [arguments, &globals] { return merge(*arguments, globals); },
+      [] { return "nothing is written, the runs are as they were; start again with the same command"; });
 }
 
 }  // namespace loopmark::app

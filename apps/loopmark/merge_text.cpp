@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 
+#include "loopmark/core/printable.hpp"
 #include "loopmark/report/table.hpp"
 #include "merge_text.hpp"
 
@@ -24,7 +25,7 @@ void print_merge(const workflows::MergeOutcome& outcome) {
   std::printf("%s\n%s\n%s is whole:\n%s", drives.text().c_str(), inter_session_loops.text().c_str(),
               outcome.run.c_str(), workflows::closing_table(outcome.map).c_str());
   for (const std::string& warning : outcome.warnings) {
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
   }
 }
 

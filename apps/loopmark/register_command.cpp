@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/storage/files.hpp"
 #include "loopmark/workflows/register_run.hpp"
@@ -36,10 +37,22 @@ struct Arguments {
   std::string target;
   std::string folder;
   std::string algorithm = "engine";
+  std::string descriptor;
   std::string picture;
   std::string record;
   bool json = false;
 };
+
+PointCloud read_scan_of_pair(const std::string& file, const io::LogOptions& options) {
+  check(options);
+  io::PointFile points = io::read_point_file(file, options);
+  if (points.has_viewpoint) {
+    log(Severity::kWarning, file +
+                                ": its header has a VIEWPOINT that moves the points; it is not applied: the answer is "
+                                "that of the points as they are stored");
+  }
+  return std::move(points.cloud);
+}
 
 void show(const workflows::RegisterRun& run, const Arguments& a) {
   std::fputs((a.json ? workflows::registration_json(run) : workflows::registration_text(run)).c_str(), stdout);
@@ -51,11 +64,12 @@ void show(const workflows::RegisterRun& run, const Arguments& a) {
 int register_pair(const Arguments& a, const Globals& globals) {
   const workflows::ProgramOptions options = globals.options();
   workflows::RegisterRun run;
-  run.source = io::read_point_file(a.source).cloud;
-  run.target = io::read_point_file(a.target).cloud;
+  run.source = read_scan_of_pair(a.source, options.log);
+  run.target = read_scan_of_pair(a.target, options.log);
   run.source_name = a.source;
   run.target_name = a.target;
   run.algorithm = a.algorithm;
+  run.descriptor = a.descriptor;
   workflows::run_registration(run, options);
   show(run, a);
   if (!a.record.empty()) {
@@ -88,6 +102,9 @@ Action set_up_register(CLI::App& command, const Globals& globals) {
   command.add_option("target", a->target, "scan in whose frame the answer stands")->required();
   command.add_option("--algorithm", a->algorithm,
                      "engine, a variant of the paper by name (ransac_gpf, gnc_clique, ...), or custom (section paper)");
+  command.add_option(
+      "--descriptor", a->descriptor,
+      "of the paper's variants: fsc (the default), fpfh, or a folder of .npz files named like the scans");
   command.add_option("--picture", a->picture, "writes a PNG: before and after, from above and from the side");
   command.add_option("--record", a->record, "writes a folder that loopmark replay opens again");
   command.add_flag("--json", a->json, "prints JSON");

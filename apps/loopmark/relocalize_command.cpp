@@ -7,6 +7,7 @@
 #include "loopmark/core/error.hpp"
 #include "loopmark/localization/relocalization_report.hpp"
 #include "loopmark/workflows/relocalize_log.hpp"
+#include "loopmark/workflows/relocalize_page.hpp"
 
 namespace loopmark::app {
 namespace {
@@ -21,8 +22,8 @@ constexpr const char* kExamples = R"(Examples:
   loopmark relocalize runs/day1 drives/day2 -o where --single   each scan on its own, as after a crash
   loopmark relocalize runs/day1 drives/day2 -o where --every 10 --map-truth drives/day1/poses.txt
 The output folder holds relocalization.csv (state, P(correct), pose and covariance of each scan), trajectory.tum (the
-scans that were placed) and summary.json (time to the first pose, losses, recoveries). With the true poses of the run's
-scans, and of the log's in the same world, answers are judged.)";
+scans that were placed), report.html (the answers on the map) and summary.json (time to the first pose, losses,
+recoveries). With the true poses of the run's scans, and of the log's in the same world, answers are judged.)";
 
 void declare(CLI::App& command, RelocalizeArguments& a) {
   command.add_option("RUN", a.job.run, "map: a run folder of loopmark map")->required();
@@ -57,6 +58,8 @@ int relocalize(const RelocalizeArguments& a, const Globals& globals) {
   const workflows::RelocalizeOutcome outcome = workflows::relocalize_log(a.job, globals.options());
   std::filesystem::create_directories(partial);
   localization::write_relocalization(partial, outcome.scans, outcome.summary);
+  workflows::write_relocalization_page(partial, a.job.run, a.job.log.string(), outcome.scans, outcome.summary,
+                                       outcome.map_truth ? &*outcome.map_truth : nullptr, outcome.true_query);
   std::filesystem::rename(partial, a.output);
   print(outcome.summary);
   return 0;
@@ -67,7 +70,8 @@ int relocalize(const RelocalizeArguments& a, const Globals& globals) {
 Action set_up_relocalize(CLI::App& command, const Globals& globals) {
   auto arguments = std::make_shared<RelocalizeArguments>();
   declare(command, *arguments);
-  return [arguments, &globals] { return relocalize(*arguments, globals); };
+  return interruptible([arguments, &globals] { return relocalize(*arguments, globals); },
+                       [] { return "nothing is written; start again with the same command"; });
 }
 
 }  // namespace loopmark::app

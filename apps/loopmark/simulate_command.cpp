@@ -166,7 +166,11 @@ Action set_up_simulate(CLI::App& command, const Globals& globals) {
   declare_drive(command, *arguments);
   declare_pairs(command, *arguments);
   command.footer(kExamples);
-  return [arguments, &globals] { return simulate(*arguments, globals.options().simulation); };
+  return interruptible([arguments, &globals] { return simulate(*arguments, globals.options().simulation); },
+                       [arguments] {
+                         return arguments->output.string() +
+                                ".partial is not whole; the same command starts again and replaces it";
+                       });
 }
 
 }  // namespace loopmark::app

@@ -10,8 +10,8 @@
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/pair_sets/pair_set.hpp"
-#include "loopmark/storage/output_folder.hpp"
 #include "loopmark/storage/files.hpp"
+#include "loopmark/storage/output_folder.hpp"
 
 namespace loopmark::app {
 namespace {

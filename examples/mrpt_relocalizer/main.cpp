@@ -19,8 +19,8 @@ int main(int argc, char** argv) try {
     return 2;
   }
   const auto run = loopmark::map_store::RunFolder::open(argv[1]);
-  const auto solved =
-      loopmark::mapping::solve_map(loopmark::map_store::read_scan_records(run), loopmark::map_store::read_loop_records(run), {}, {});
+  const auto records = loopmark::map_store::read_run_records(run);
+  const auto solved = loopmark::mapping::solve_map(records.scans, records.loops, {}, {});
   loopmark::localization::Relocalizer relocalizer(loopmark::localization::open_place_map(run, solved, {}), {});
   for (const auto& object : frames) {
     mrpt::obs::CSensoryFrame frame;

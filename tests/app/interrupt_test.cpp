@@ -35,7 +35,7 @@ TEST_P(Interrupt, OfASimulationLeavesNoFinishedLog) {
   program.send(GetParam());
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exit_code, 130) << result.output;
-  EXPECT_THAT(result.output, testing::HasSubstr("interrupted"));
+  EXPECT_THAT(result.output, testing::HasSubstr("interrupted: " + folder.string() + ".partial is not whole"));
   EXPECT_FALSE(std::filesystem::exists(folder));
   std::filesystem::remove_all(folder.string() + ".partial");
 }

@@ -189,8 +189,8 @@ TEST_F(Merge, SaysWhatIsWrongWithTheRuns) {
         folder_ / run / "manifest.json",
         "{\"program\": \"" + program + "\", \"input\": {\"log\": \"somewhere\"}, \"sha256\": {}}\n");
   };
-  manifest("one", "loopmark 0.1.0");
-  manifest("copy", "loopmark 0.1.7");
+  manifest("one", "loopmark 0.2.0");
+  manifest("copy", "loopmark 0.2.7");
   fs::create_directories(folder_ / "old");
   fs::copy(folder_ / "one", folder_ / "old", fs::copy_options::recursive);
   manifest("old", "loopmark 9.4.2");

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "command.hpp"
+#include "commit.hpp"
 #include "loopmark/core/version.hpp"
 #include "loopmark/storage/files.hpp"
 #include "support/run_program.hpp"
@@ -27,7 +28,8 @@ TEST(Program, HelpAndVersionSucceed) {
   }
   const ProgramResult version_line = run_program({"--version"});
   EXPECT_EQ(version_line.exit_code, 0);
-  EXPECT_EQ(version_line.output, std::string("loopmark ") + version() + "\n");
+  EXPECT_EQ(version_line.output, "loopmark " + version_text() + "\n");
+  EXPECT_THAT(version_line.output, testing::StartsWith(std::string("loopmark ") + version()));
 }
 
 TEST(Program, HelpOfEachSubcommandHasExamples) {
@@ -46,6 +48,24 @@ TEST(Program, WrongUsageIsExitCode2) {
     const ProgramResult result = run_program(arguments);
     EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments) << result.output;
     EXPECT_FALSE(result.output.empty()) << testing::PrintToString(arguments);
+  }
+}
+
+TEST(Program, UnknownWordsAreAnsweredWithTheNearest) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> answers = {
+      {{"mapp"}, "error: there is no command 'mapp': did you mean 'map'? (see: loopmark --help)"},
+      {{"relocalise"}, "did you mean 'relocalize'?"},
+      {{"align", "a.bin", "b.bin"}, "did you mean 'register'?"},
+      {{"show"}, "did you mean 'view'?"},
+      {{"qqqqqqq"}, "there are doctor, map, merge"},
+      {{"config", "dmp"}, "did you mean 'dump'? (see: loopmark config --help)"},
+      {{"map", "drive", "--outptu", "run"}, "there is no option '--outptu': did you mean '--output'?"},
+      {{"relocalize", "run", "drive", "-o", "out", "--thread=2"}, "did you mean '--threads'?"},
+      {{"register", "a.bin", "b.bin", "c.bin"}, "'c.bin' was not expected (see: loopmark register --help)"}};
+  for (const auto& [arguments, answer] : answers) {
+    const ProgramResult result = run_program(arguments);
+    EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments);
+    EXPECT_THAT(result.output, HasSubstr(answer)) << testing::PrintToString(arguments);
   }
 }
 

@@ -214,8 +214,8 @@ TEST_F(Relocalize, BadInputIsRefusedAndNothingIsLeft) {
   told({log, log}, "there is no run");
   told({run, scratch("nowhere")}, "no such file or folder");
   told({run, scratch("empty")}, scratch("empty").string());
-  told({run, log, "--map-truth", log / "poses.txt"}, "4 poses for 110 scans of the run");
-  told({run, log, "--map-truth", day1() / "poses.txt", "--truth", day1() / "poses.txt"}, "110 true poses for 4 scans");
+  told({run, log, "--map-truth", log / "poses.txt"}, "4 poses for 110 scans");
+  told({run, log, "--map-truth", day1() / "poses.txt", "--truth", day1() / "poses.txt"}, "110 poses for 4 scans");
   told({run, log, "--every", "0"}, "--every");
   told({run, log, "--set", "relocalization.places=0"}, "places");
   told({run}, "LOG");

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/mapping/mapper.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/storage/files.hpp"
+#include "loopmark/storage/record_file.hpp"
 #include "support/box_world.hpp"
 
 namespace loopmark::mapping {
@@ -104,23 +106,113 @@ TEST_F(MapperTest, GoesOnFromAnySavedStateAsIfNeverInterrupted) {
   }
 }
 
-TEST_F(MapperTest, SaysSoWhenTheSavedStateIsDamaged) {
-  const map_store::RunFolder folder = map_store::RunFolder::create(new_folder("damaged"));
-  {
+/// A run that was interrupted at scan 6 and has a saved state there, and the one before it at scan 3.
+class PowerCut : public MapperTest {
+ protected:
+  PowerCut()
+      : whole_(map_store::RunFolder::create(new_folder("whole"))),
+        cut_(map_store::RunFolder::create(new_folder("cut"))) {
+    feed_all(whole_, kScans);
+    expected_ = written(whole_, keyframes_);
+    Mapper mapper = mapper_on(cut_);
+    for (std::size_t i = 0; i < 6; ++i) {
+      mapper.add(scan(i));
+      if (i == 2 || i == 5) {
+        mapper.checkpoint();
+      }
+    }
+  }
+  ~PowerCut() override { set_log_sink({}); }
+
+  void feed_all(const map_store::RunFolder& folder, std::size_t count) {
     Mapper mapper = mapper_on(folder);
-    mapper.add(scan(0));  // a keyframe that waits for the next scan, so the state holds its cloud
-    mapper.checkpoint();
+    for (std::size_t i = mapper.scans().size(); i < count; ++i) {
+      mapper.add(scan(i));
+    }
+    mapper.end_log();
+    keyframes_ = mapper.keyframes().size();
   }
-  const fs::path file = folder / "records/odometry.state";
-  const std::string bytes = storage::read_file(file);
-  for (const std::size_t place : {bytes.size() / 3, bytes.size() - 100}) {
-    std::string damaged = bytes;
-    damaged[place] = static_cast<char>(damaged[place] ^ 1);
-    storage::write_file_atomically(file, damaged);
-    EXPECT_THROW(mapper_on(folder), InputError) << "byte " << place;
+
+  /// The scan that a mapper on the cut run goes on with, and what it says; then it must come to the bytes of the other.
+  std::size_t goes_on_from() {
+    set_log_sink([this](Severity, const std::string& message) { said_ = said_.empty() ? message : said_; });
+    std::size_t from = 0;
+    {
+      const Mapper mapper = mapper_on(cut_);
+      from = mapper.scans().size();
+    }
+    feed_all(cut_, kScans);
+    EXPECT_TRUE(written(cut_, keyframes_) == expected_);
+    return from;
   }
-  storage::write_file_atomically(file, std::string_view(bytes).substr(0, bytes.size() / 4));
-  EXPECT_THROW(mapper_on(folder), InputError);
+
+  fs::path state() const { return cut_ / "records/odometry.state"; }
+
+  map_store::RunFolder whole_;
+  map_store::RunFolder cut_;
+  std::size_t keyframes_ = 0;
+  std::string expected_;
+  std::string said_;
+};
+
+TEST_F(PowerCut, WithAllThereItGoesOnWithoutAWord) {
+  EXPECT_EQ(goes_on_from(), 6U);
+  EXPECT_EQ(said_, "");
+}
+
+TEST_F(PowerCut, ALostTailOfTheRecordsGoesBackToTheStateBefore) {
+  const std::string records = storage::read_file(cut_.scan_records());
+  storage::write_file_atomically(cut_.scan_records(), std::string_view(records).substr(0, records.size() - 10));
+  EXPECT_EQ(goes_on_from(), 3U);
+  EXPECT_THAT(said_, testing::HasSubstr("not all of them are there"));
+}
+
+TEST_F(PowerCut, LostRecordsGoBackToTheBeginning) {
+  fs::remove(cut_.scan_records());
+  EXPECT_EQ(goes_on_from(), 0U);
+  EXPECT_THAT(said_, testing::HasSubstr("going on from scan 0"));
+}
+
+TEST_F(PowerCut, ADamagedRecordGoesBackBehindIt) {
+  std::string records = storage::read_file(cut_.scan_records());
+  records[records.find('\n') + 20] ^= 1;
+  storage::write_file_atomically(cut_.scan_records(), records);
+  EXPECT_EQ(goes_on_from(), 0U);
+}
+
+TEST_F(PowerCut, AnotherRecordWithARightChecksumIsNotTakenForTheOneThatWasCounted) {
+  std::vector<std::string> lines = storage::read_records(cut_.scan_records()).lines;
+  fs::remove(cut_.scan_records());
+  lines[1] = lines[2];
+  storage::RecordWriter writer(cut_.scan_records());
+  for (const std::string& line : lines) {
+    writer.append(line);
+  }
+  EXPECT_EQ(goes_on_from(), 0U);
+}
+
+TEST_F(PowerCut, ADamagedCutOrMissingStateGoesBackToTheOneBefore) {
+  const std::string good = storage::read_file(state());
+  for (const std::size_t size : {good.size() / 2, std::size_t{0}}) {
+    storage::write_file_atomically(state(), std::string_view(good).substr(0, size));
+    const Mapper mapper = mapper_on(cut_);
+    EXPECT_EQ(mapper.scans().size(), 3U) << size;
+  }
+  fs::remove(state());
+  EXPECT_EQ(goes_on_from(), 3U);
+}
+
+TEST_F(PowerCut, WithoutAnyStateItBeginsAnew) {
+  storage::write_file_atomically(state(), "nonsense");
+  storage::write_file_atomically(state().string() + ".before", "");
+  EXPECT_EQ(goes_on_from(), 0U);
+  EXPECT_THAT(said_, testing::HasSubstr("no saved state"));
+}
+
+TEST_F(PowerCut, AnEmptyKeyframeGoesBackBehindIt) {
+  storage::write_file_atomically(cut_.keyframe(0, "place"), "");
+  EXPECT_EQ(goes_on_from(), 0U);
+  EXPECT_THAT(said_, testing::HasSubstr("000000.place"));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ usage: check_structure.py SOURCE_DIR
 - Libraries do not print: no std::cout, std::cerr or printf to them.
 - The table in docs/architecture.md is that of cmake/layers.txt.
 - Links between the Markdown files lead to files that are there.
+- No paragraph of README.md or docs/ has over 120 words, README.md not over 700.
 - Every C++ file starts with the two SPDX lines; every header with #pragma once.
 Prints one line "FILE:LINE: PROBLEM" for each finding; exit code 1 when there is any.
 """
@@ -24,13 +25,15 @@ from pathlib import Path
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
 FOREIGN = re.compile(r"^(pcl|mrpt|ceres|embree3|octomap|yaml-cpp|tbb|oneapi|open3d|nlohmann|hwy|CLI)/"
-                     r"|^(nanoflann\.hpp|png\.h|zlib\.h|zstd\.h|kiss_fft\w*\.h|rtcore\w*\.h)$")
+                     r"|^(nanoflann\.hpp|png\.h|zlib\.h|zstd\.h|httplib\.h|kiss_fft\w*\.h|rtcore\w*\.h)$")
 ALLOWED_IN_PUBLIC = {"mrpt_bridge": re.compile(r"^mrpt/")}
 PRINTS = re.compile(r"std::(cout|cerr)\b|\bstd::puts\(|\bstd::printf\(|fprintf\(stdout")
 SPDX = ["// SPDX-FileCopyrightText: loopmark contributors", "// SPDX-License-Identifier: BSD-3-Clause"]
 
 
 MOST_PUBLIC_HEADERS = 15
+MOST_WORDS_OF_A_PARAGRAPH = 120
+MOST_WORDS_OF_THE_README = 700
 NAMESPACE = re.compile(r"^namespace (loopmark(?:::\w+)*) \{", re.M)
 CODE = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
 TYPE = re.compile(r"\b(?:class|struct|union|enum class|enum struct|enum)\s+(\w+)(?:\s+final)?(?:\s*:[^;{}()]*)?\s*$")
@@ -202,13 +205,41 @@ def check_links(path):
                 yield path, number, f"links to {target}, which is not there"
 
 
+def paragraphs(text):
+    """(line, words) of each paragraph and list item; tables, headings and code are none."""
+    number, words, code = 0, 0, False
+    for i, line in enumerate(text.splitlines() + [""], 1):
+        code = code != line.startswith("```")
+        plain = line.strip() and not code and not line.startswith(("|", "#", "```"))
+        if words and (not plain or re.match(r"\s*([-*]|\d+\.) ", line)):
+            yield number, words
+            words = 0
+        if plain and not (words == 0 and line.startswith("    ") and not re.match(r"\s*([-*]|\d+\.) ", line)):
+            number = number if words else i
+            words += len(line.split())
+
+
+def check_prose(root):
+    """Pages for people are short, and so are their paragraphs."""
+    for path in sorted([root / "README.md", *(root / "docs").rglob("*.md")]):
+        if path.exists():
+            for number, words in paragraphs(path.read_text()):
+                if words > MOST_WORDS_OF_A_PARAGRAPH:
+                    yield path, number, f"a paragraph of {words} words, more than {MOST_WORDS_OF_A_PARAGRAPH}"
+    if (root / "README.md").exists():
+        words = len((root / "README.md").read_text().split())
+        if words > MOST_WORDS_OF_THE_README:
+            yield root / "README.md", 1, f"has {words} words, more than {MOST_WORDS_OF_THE_README}"
+
+
 def check_tree(root):
     """Yields (path, line number, problem)."""
     floors = read_layers(root / "cmake" / "layers.txt")
     if (root / "docs" / "architecture.md").exists():
         yield from check_guide(root / "docs" / "architecture.md", floors)
-    for path in sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md")]):
+    for path in sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "maps").glob("*.md")]):
         yield from check_links(path)
+    yield from check_prose(root)
     for folder in sorted(p.parent for p in (root / "libs").glob("*/CMakeLists.txt")):
         yield from check_room(folder.name, folder, floors)
         yield from check_public_headers(folder.name, folder)

@@ -73,6 +73,15 @@ class CheckStructureTest(unittest.TestCase):
         self.write("docs/a.md", "[up](../README.md)\n")
         self.assertEqual(self.problems(), ["README.md:1: links to docs/b.md, which is not there"])
 
+    def test_pages_are_short(self):
+        self.write("README.md", "word " * 701 + "\n")
+        self.write("docs/a.md", "word\n" * 121 + "\n- " + "word " * 119 + "\n- " + "word " * 119 + "\n\n| " + "word " * 200
+                   + "|\n\n```\n" + "word " * 200 + "\n```\n")
+        self.assertEqual(self.problems(), [
+            "README.md:1: a paragraph of 701 words, more than 120",
+            "docs/a.md:1: a paragraph of 121 words, more than 120",
+            "README.md:1: has 701 words, more than 700"])
+
     def test_form_of_files(self):
         self.write("tests/core/a_test.cpp", "int main() {}\n")
         self.write("apps/loopmark/a.hpp", HEAD)

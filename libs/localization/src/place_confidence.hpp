@@ -10,7 +10,8 @@
 
 namespace loopmark::localization::internal {
 
-/// The engine's evidence by which answers at different places are compared (docs/registration.md says what each is).
+/// The engine's evidence by which answers at different places are compared (docs/reference/evidence.md says what each
+/// is).
 constexpr std::array<std::string_view, 5> kCompared = {"agreement", "low_missing", "tall_strong_violation",
                                                        "far_violation", "ground_gap"};
 constexpr double kMostLag =

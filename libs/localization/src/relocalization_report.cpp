@@ -47,7 +47,7 @@ std::string json_text(const RelocalizationSummary& s) {
     json["wrong"] = s.wrong;
     json["median_error_m"] = s.median_error_m;
   }
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
@@ -117,7 +117,8 @@ void write_relocalization(const std::filesystem::path& folder, const std::vector
   io::write_tum(folder / "trajectory.tum", stamps, poses);
   storage::write_file_atomically(folder / "summary.json", json_text(summary));
   const nlohmann::ordered_json seconds = {{"whole", summary.seconds}};
-  storage::write_file_atomically(folder / "timings.json", seconds.dump(1) + "\n");
+  storage::write_file_atomically(folder / "timings.json",
+                                 seconds.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace loopmark::localization

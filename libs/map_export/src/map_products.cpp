@@ -5,6 +5,7 @@
 
 #include "loopmark/cloud/thin_cloud.hpp"
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/map_export/products.hpp"
 #include "loopmark/map_store/keyframe_files.hpp"
@@ -105,18 +106,23 @@ occupancy::OccupancyStatistics write_occupancy(const map_store::RunFolder& folde
                                                const occupancy::OccupancyOptions& options) {
   const ScratchFolder scratch(folder);
   occupancy::OccupancyMapBuilder builder(options, scratch.path());
-  for (const std::size_t number : keyframes_in(map, kMain)) {
+  const std::vector<std::size_t> numbers = keyframes_in(map, kMain);
+  Progress progress("occupancy", "keyframes", numbers.size());
+  for (const std::size_t number : numbers) {
     builder.insert(map_store::read_keyframe_cloud(folder, number).points, map.T_map_keyframe[number]);
+    progress.add();
   }
   return builder.write(folder / "map.bt", folder / "map.ot");
 }
 
 void write_clouds(const map_store::RunFolder& folder, const mapping::SolvedMap& map, double voxel_m) {
   const ScratchFolder scratch(folder);
+  Progress progress("cloud", "keyframes", map.keyframes.size());
   for (std::size_t component = 0; component < map.components; ++component) {
     cloud::TiledCloud cloud(voxel_m, scratch.path() / "cloud");
     for (const std::size_t number : keyframes_in(map, component)) {
       cloud.add(in_map(folder, map, number));
+      progress.add();
     }
     const std::string file = component == kMain ? "cloud.ply" : "component_" + std::to_string(component) + ".ply";
     io::write_ply_in_parts(folder / file, cloud.size(), [&](const io::PlyPart& add) {
@@ -128,9 +134,11 @@ void write_clouds(const map_store::RunFolder& folder, const mapping::SolvedMap& 
 void write_mrpt_products(const map_store::RunFolder& folder, const std::vector<map_store::ScanRecord>& scans,
                          const std::vector<map_store::LoopRecord>& loops, const mapping::SolvedMap& map) {
   const std::vector<std::size_t> numbers = keyframes_in(map, kMain);
+  Progress progress("files for MRPT", "keyframes", numbers.size());
   mrpt_bridge::write_simplemap(folder / "map.simplemap", numbers.size(), [&](std::size_t i) {
     const mapping::Keyframe& keyframe = map.keyframes[numbers[i]];
     const map_store::ScanRecord& scan = scans[keyframe.scan];
+    progress.add();
     return mrpt_bridge::SimpleMapKeyframe{
         map.T_map_keyframe[numbers[i]], map.covariance[keyframe.scan],
         Scan{scan.scan, scan.stamp_s, map_store::read_keyframe_cloud(folder, numbers[i])}};

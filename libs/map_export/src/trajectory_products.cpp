@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <set>
 
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/map_export/products.hpp"
 #include "loopmark/mapping/map_components.hpp"
@@ -12,11 +13,7 @@
 namespace loopmark::map_export {
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
+std::string number(double value) { return format_text("%.9g", value); }
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -34,10 +31,9 @@ std::string covariances_csv(const std::vector<map_store::ScanRecord>& scans, con
       text += std::string(",cov_") + kAxes[row] + "_" + kAxes[column];
     }
   }
-  text += "\n";
+  text += ",doubt\n";
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    char stamp[48];
-    std::snprintf(stamp, sizeof stamp, "%.6f", scans[i].stamp_s);
+    const std::string stamp = format_text("%.6f", scans[i].stamp_s);
     text += std::to_string(scans[i].scan) + "," + stamp + "," + std::to_string(map.component[i]) + "," +
             name(scans[i].state) + "," + name(scans[i].tracking) + "," + number(scans[i].inlier_share) + "," +
             number(scans[i].residual_m) + "," + std::to_string(scans[i].degenerate);
@@ -46,7 +42,7 @@ std::string covariances_csv(const std::vector<map_store::ScanRecord>& scans, con
         text += "," + number(map.covariance[i](row, column));
       }
     }
-    text += "\n";
+    text += "," + quoted(scans[i].problem) + "\n";
   }
   return text;
 }
@@ -98,8 +94,7 @@ std::string components_csv(const std::vector<mapping::MapComponent>& components)
       "name,anchored,scans,first_scan,last_scan,begin_s,end_s,segments,keyframes,path_m,candidates_to_others,best_p,"
       "best\n";
   for (const mapping::MapComponent& c : components) {
-    char stamps[96];
-    std::snprintf(stamps, sizeof stamps, "%.6f,%.6f", c.begin_s, c.end_s);
+    const std::string stamps = format_text("%.6f,%.6f", c.begin_s, c.end_s);
     text += c.name + "," + (c.anchored ? "1" : "0") + "," + std::to_string(c.scans) + "," +
             std::to_string(c.first_scan) + "," + std::to_string(c.last_scan) + "," + stamps + "," +
             std::to_string(c.segments) + "," + std::to_string(c.keyframes) + "," + number(c.path_m) + "," +

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loopmark/mapping/mapper.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "loopmark/cloud/voxel.hpp"
@@ -11,6 +12,18 @@
 #include "mapper_placed.hpp"
 
 namespace loopmark::mapping {
+namespace {
+
+/// What odometry that slides is off by, when registration cannot tell: xi in T * exp(xi).
+Matrix6d unconfirmed_covariance() {
+  constexpr double kMetres = 0.5;
+  constexpr double kRadians = 0.05;
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(kMetres * kMetres), Eigen::Vector3d::Constant(kRadians * kRadians);
+  return variances.asDiagonal();
+}
+
+}  // namespace
 
 Mapper::Mapper(const map_store::RunFolder& folder, const MapperOptions& options,
                registration::PairRegistrationPtr registrar, odometry::Compensation compensation,
@@ -48,6 +61,10 @@ const map_store::ScanRecord& Mapper::add(const Scan& scan) {
   record.tracking = placed.tracked.tracking_status.tracking;
   record.covariance = placed.tracked.tracking_status.covariance;
   record.problem = placed.problem;
+  if (!placed.doubt.empty()) {
+    record.problem = placed.doubt;
+    record.covariance += unconfirmed_covariance();
+  }
   if (deserves_keyframe(placed.tracked, placed.state)) {
     record.keyframe = keyframes_.size();
     if (odometry_.deskews()) {
@@ -94,16 +111,40 @@ void Mapper::flush_pending(const Vector6d& velocity) {
   map_store::ScanRecord& record = scans_.back();
   record.velocity = velocity;
   write_keyframe(*pending_, record);
-  scan_file_->append(to_line(record));
+  append(record);
   pending_.reset();
+}
+
+void Mapper::append(const map_store::ScanRecord& record) {
+  const std::string line = to_line(record);
+  scan_file_->append(line);
+  count_record(line);
 }
 
 void Mapper::keep(map_store::ScanRecord record) {
   if (!pending_) {
-    scan_file_->append(to_line(record));
+    append(record);
   }
   scans_.push_back(std::move(record));
   path_.add(scans_.back(), keyframes_);
+}
+
+void Mapper::add_copy(std::size_t scan, double stamp_s) {
+  flush_pending();
+  const auto original = std::find_if(scans_.rbegin(), scans_.rend(), [](const map_store::ScanRecord& s) {
+    return s.state != map_store::ScanState::kDamaged;
+  });
+  if (original == scans_.rend()) {
+    add_damaged(scan, stamp_s, "a copy of a scan that could not be used");
+    return;
+  }
+  map_store::ScanRecord record = *original;
+  record.scan = scan;
+  record.stamp_s = stamp_s;
+  record.state = map_store::ScanState::kCopy;
+  record.keyframe.reset();
+  record.problem.clear();
+  keep(std::move(record));
 }
 
 void Mapper::add_damaged(std::size_t scan, double stamp_s, const std::string& problem) {

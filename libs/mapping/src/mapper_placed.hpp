@@ -13,6 +13,7 @@ struct Mapper::Placed {
   odometry::TrackedScan tracked;
   map_store::ScanState state = map_store::ScanState::kTracked;
   std::string problem;
+  std::string doubt;  ///< why the pose may be wrong though it was tracked; empty: nothing speaks against it
 };
 
 }  // namespace loopmark::mapping

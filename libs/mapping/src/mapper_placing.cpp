@@ -45,7 +45,7 @@ bool registers(const registration::PairRegistration& registrar, const map_store:
 /// Tracks the scan; a lost one is registered to the latest keyframes; one that fits nowhere starts a new segment, and
 /// so does one behind a long gap, which no motion model reaches across, unless registration confirms it.
 Mapper::Placed Mapper::place(const Scan& scan) {
-  Placed placed{odometry_.track(scan), map_store::ScanState::kTracked, ""};
+  Placed placed{odometry_.track(scan), map_store::ScanState::kTracked, "", ""};
   if (placed.tracked.sample.size() < kLeastPoints) {
     throw io::DamagedScan("scan " + std::to_string(scan.index) + ": only " +
                           std::to_string(placed.tracked.sample.size()) + " usable points");
@@ -71,6 +71,8 @@ Mapper::Placed Mapper::place(const Scan& scan) {
     } else {
       start_segment(scan, placed.problem, placed);
     }
+  } else {
+    check_odometry(scan, placed);
   }
   return placed;
 }

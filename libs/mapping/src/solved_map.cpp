@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loopmark/core/progress.hpp"
+
 namespace loopmark::mapping {
 namespace {
 
@@ -219,6 +221,7 @@ SolvedMap solve_keyframes(const std::vector<Keyframe>& keyframes, const std::vec
 SolvedMap solve_map(const std::vector<map_store::ScanRecord>& scans, const std::vector<map_store::LoopRecord>& loops,
                     const SlamOptions& options, const pose_graph::PoseGraphOptions& graph_options,
                     const std::vector<map_store::LoopDecision>& decisions) {
+  const Progress progress("solving the map");
   SolvedMap map = solve_keyframes(keyframes_of(scans), loops, options, graph_options, decisions);
   place_scans(map, scans);
   return map;

@@ -84,6 +84,7 @@ void Odometry::judge(TrackedScan& tracked) const {
   const bool by_structure = tracking_status.structure >= kLeastStructure;
   const bool doubtful = by_structure ? tracking_status.structure_share < kStructureShare * options_.min_inlier_share
                                      : tracking_status.inlier_share < options_.min_inlier_share;
+  tracking_status.few_fit = doubtful;
   if (doubtful && tracking_status.margin < options_.min_margin) {
     tracking_status.tracking = Tracking::kLost;
     tracking_status.reason = "few points fit the map, and elsewhere hardly fewer";

@@ -158,7 +158,7 @@ std::vector<RegistrationPair> make_candidate_pool(const std::vector<Drive>& driv
   const std::vector<Source> sources = sources_of(drives, spacing);
   const std::size_t blocks = (sources.size() + kBlock - 1) / kBlock;
   internal::PoolRecords done(records, drives, spacing, options);
-  Progress progress("sources", sources.size());
+  Progress progress("pool", "sources", sources.size());
   PoolCost total;
   std::mutex mutex;
   std::vector<std::vector<RegistrationPair>> parts(blocks);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/storage/files.hpp"
 #include "loopmark/text/number_rows.hpp"
 
@@ -18,7 +19,7 @@ std::string identity(const std::vector<Drive>& drives, std::size_t spacing, cons
   std::string poses;
   for (const Drive& drive : drives) {
     for (std::size_t i = 0; i < drive.size(); ++i) {
-      poses += std::to_string(drive.frames[i]) + ' ' + std::to_string(drive.stamps_s[i]);
+      poses += std::to_string(drive.frames[i]) + ' ' + format_text("%f", drive.stamps_s[i]);
       text::append_motion(poses, drive.T_world_cloud[i]);
     }
     poses += "session " + std::to_string(drive.session) + '\n';
@@ -26,7 +27,7 @@ std::string identity(const std::vector<Drive>& drives, std::size_t spacing, cons
   const Json json = {{"pool", storage::sha256_hex(poses)}, {"spacing", spacing},
                      {"min_overlap", options.min_overlap}, {"symmetric", options.symmetric},
                      {"max_gap_s", options.max_gap_s},     {"seed", options.seed}};
-  return json.dump();
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 Json to_json(const RegistrationPair& pair) {
@@ -59,11 +60,16 @@ PoolRecords::PoolRecords(const std::filesystem::path& path, const std::vector<Dr
     throw InputError(path.string(), "", "candidates of other drives or options", "delete it, or give another -o");
   }
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    const Json json = Json::parse(lines[i]);
-    auto& pairs = found_[json.at("block").get<std::size_t>()];
-    pairs.clear();
-    for (const Json& pair : json.at("pairs")) {
-      pairs.push_back(from_json(pair));
+    try {
+      const Json json = Json::parse(lines[i]);
+      auto& pairs = found_[json.at("block").get<std::size_t>()];
+      pairs.clear();
+      for (const Json& pair : json.at("pairs")) {
+        pairs.push_back(from_json(pair));
+      }
+    } catch (const Json::exception& problem) {
+      throw InputError(path.string(), "line " + std::to_string(i + 1), std::string("is no block: ") + problem.what(),
+                       "delete it: its pairs are looked for again");
     }
   }
   writer_ = std::make_unique<storage::RecordWriter>(path);
@@ -85,7 +91,7 @@ void PoolRecords::add(std::size_t block, const std::vector<RegistrationPair>& pa
   for (const RegistrationPair& pair : pairs) {
     json["pairs"].push_back(to_json(pair));
   }
-  writer_->append(json.dump());
+  writer_->append(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace loopmark::pair_sets::internal

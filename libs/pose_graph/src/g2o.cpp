@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/storage/files.hpp"
 
 namespace loopmark::pose_graph {
@@ -79,12 +80,11 @@ class Reader {
   double number(std::istringstream& words) const {
     std::string word;
     words >> word;
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0' || !std::isfinite(value)) {
+    const std::optional<double> value = number_in(word);
+    if (!value || !std::isfinite(*value)) {
       fail(word.empty() ? "the line ends too early" : "\"" + word + "\" is no finite number", line_);
     }
-    return value;
+    return *value;
   }
 
   long id(std::istringstream& words) const {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "loopmark/core/number_text.hpp"
 #include "pairing.hpp"
 
 namespace loopmark::refinement {
@@ -99,10 +100,8 @@ const char* to_string(IcpStop stop) {
 }
 
 std::string IcpResult::summary() const {
-  char line[160];
-  std::snprintf(line, sizeof line, "%s after %zu iterations: %zu pairs (%.1f %% of the source), rms %.3f m, %d weak",
-                to_string(stop), iterations, inliers, 100.0 * inlier_share, rms_m, weak_directions);
-  return line;
+  return format_text("%s after %zu iterations: %zu pairs (%.1f %% of the source), rms %.3f m, %d weak", to_string(stop),
+                     iterations, inliers, 100.0 * inlier_share, rms_m, weak_directions);
 }
 
 IcpResult icp(const Surface& source, const IcpTarget& target, const Pose& initial, const IcpOptions& options) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "loopmark/core/number_text.hpp"
+
 namespace loopmark::report::internal {
 
 std::string escape_markup(const std::string& text) {
@@ -50,9 +52,7 @@ std::string base64(const std::string& bytes) {
 std::string png_data_uri(const std::string& png) { return "data:image/png;base64," + base64(png); }
 
 std::string fixed(double value, int decimals) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  std::string number = text.data();
+  std::string number = format_text("%.*f", decimals, value);
   const bool zero = number.find_first_not_of("-0.") == std::string::npos;
   return zero && number.front() == '-' ? number.substr(1) : number;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "loopmark/core/number_text.hpp"
 #include "text.hpp"
 
 namespace loopmark::report {
@@ -29,9 +30,7 @@ std::string number_label(double value, double step) {
     value = 0.0;
   }
   if (size >= 1e6 || step < 1e-4) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%g", value);
-    return text.data();
+    return format_text("%g", value);
   }
   return internal::fixed(value, std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))));
 }

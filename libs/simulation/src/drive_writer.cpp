@@ -9,26 +9,20 @@
 #include <vector>
 
 #include "loopmark/core/interrupt.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/parallel.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/point_files.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/mrpt_bridge/rawlog.hpp"
-#include "loopmark/storage/output_folder.hpp"
 #include "loopmark/storage/files.hpp"
+#include "loopmark/storage/output_folder.hpp"
 
 namespace loopmark::simulation {
 namespace {
 
 /// Scans rendered at a time: enough for every thread, few enough to keep memory small.
 constexpr std::size_t kBatch = 8;
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 512> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 std::string revisits_csv(const Drive& drive) {
   std::string text =
@@ -37,8 +31,9 @@ std::string revisits_csv(const Drive& drive) {
   for (const Revisit& r : drive.revisits()) {
     const auto scan = [&](double distance) { return std::min(last, drive.scan_at(distance)); };
     if (drive.scan_at(r.begin_m) < drive.size()) {
-      text += format("%s,%zu,%zu,%zu,%zu,%.1f,%.2f,%d\n", name_of(r.kind), scan(r.begin_m), scan(r.end_m),
-                     scan(r.earlier_begin_m), scan(r.earlier_end_m), r.length(), r.nearest_m, r.near_identical ? 1 : 0);
+      text += format_text("%s,%zu,%zu,%zu,%zu,%.1f,%.2f,%d\n", name_of(r.kind), scan(r.begin_m), scan(r.end_m),
+                          scan(r.earlier_begin_m), scan(r.earlier_end_m), r.length(), r.nearest_m,
+                          r.near_identical ? 1 : 0);
     }
   }
   return text;
@@ -50,20 +45,20 @@ std::string town_json(const Town& town, const Drive& drive, const WriteOptions& 
   const Pose T_town_first = drive.pose(drive.stamp_s(0));
   std::string first;
   for (int i = 0; i < 16; ++i) {
-    first += format(i == 0 ? "%.9f" : ", %.9f", T_town_first.matrix()(i / 4, i % 4));
+    first += format_text(i == 0 ? "%.9f" : ", %.9f", T_town_first.matrix()(i / 4, i % 4));
   }
   constexpr std::array<const char*, 3> kLanes = {"right", "centre", "left"};
-  return format(
+  return format_text(
              "{\n  \"town\": {\"seed\": %llu, \"columns\": %d, \"rows\": %d, \"max_slope\": %.3f, \"triangles\": "
              "%zu},\n",
              static_cast<unsigned long long>(town.options.seed), town.options.columns, town.options.rows,
              town.options.max_slope, town.mesh.size()) +
-         format(
+         format_text(
              "  \"drive\": {\"seed\": %llu, \"day\": %d, \"route\": \"%s\", \"lane\": \"%s\", \"reverse\": %s, "
              "\"length_m\": %.2f, \"scans\": %zu, \"points\": %zu},\n",
              static_cast<unsigned long long>(o.seed), o.day, o.route.c_str(), kLanes[static_cast<std::size_t>(o.lane)],
              o.reverse ? "true" : "false", log.length_m, log.scans, log.points) +
-         format(
+         format_text(
              "  \"sensor\": {\"name\": \"%s\", \"label\": \"%s\", \"lasers\": %zu, \"columns\": %d, \"rate_hz\": %.3f, "
              "\"max_range_m\": %.1f, \"height_m\": %.2f},\n",
              s.name.c_str(), s.label.c_str(), s.elevation_rad.size(), s.columns, s.rate_hz, s.max_range_m, s.height_m) +
@@ -72,7 +67,7 @@ std::string town_json(const Town& town, const Drive& drive, const WriteOptions& 
 
 std::string sweep_text(const Drive& drive, bool compensated) {
   const double period = 1.0 / drive.sensor().rate_hz;
-  return format(
+  return format_text(
       "clockwise seen from above (+z), seam at the rear (azimuth +-180 deg), %.6f s a sweep; scans %s; time of a "
       "point relative to the scan's reference time: -atan2(y, x) / (2 pi) * %.6f s%s\n",
       period, compensated ? "motion compensated to their reference time" : "NOT motion compensated", period,
@@ -85,7 +80,7 @@ void write_texts(const Town& town, const Drive& drive, const std::filesystem::pa
   std::vector<Pose> poses;
   const Pose T_first_town = drive.pose(drive.stamp_s(0)).inverse();
   for (std::size_t i = 0; i < drive.size(); ++i) {
-    times += format("%.6f\n", drive.stamp_s(i));
+    times += format_text("%.6f\n", drive.stamp_s(i));
     poses.push_back(T_first_town * drive.pose(drive.stamp_s(i)));
   }
   storage::write_file_atomically(folder / "times.txt", times);
@@ -116,9 +111,9 @@ class ScanStore {
   /// Files of their own are written at once, on any thread.
   void store(const Scan& scan) const {
     if (format_ == LogFormat::kPcd) {
-      io::write_pcd(folder_ / format("%06zu.pcd", scan.index), scan.cloud);
+      io::write_pcd(folder_ / format_text("%06zu.pcd", scan.index), scan.cloud);
     } else if (format_ == LogFormat::kKitti) {
-      io::write_bin(folder_ / format("%06zu.bin", scan.index), scan.cloud);
+      io::write_bin(folder_ / format_text("%06zu.bin", scan.index), scan.cloud);
     }
   }
 
@@ -150,7 +145,7 @@ Scan make_scan(const World& world, const Drive& drive, std::size_t index, bool c
 /// Renders and stores all scans; returns the number of points.
 std::size_t write_scans(const World& world, const Drive& drive, const WriteOptions& options, ScanStore& store) {
   std::size_t points = 0;
-  Progress progress("scans", drive.size());
+  Progress progress("simulation", "scans", drive.size());
   for (std::size_t first = 0; first < drive.size(); first += kBatch) {
     check_interrupt();
     std::vector<Scan> batch(std::min(kBatch, drive.size() - first));

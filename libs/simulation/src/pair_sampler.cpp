@@ -63,7 +63,7 @@ class Sampler {
   }
 
   PairSample run() {
-    Progress progress("pairs", o_.pairs + o_.negatives);
+    Progress progress("simulation", "pairs", o_.pairs + o_.negatives);
     std::size_t in_vain = 0;
     for (std::size_t round = 0; in_vain < 3 * kPatience && sample_.pairs.size() < o_.pairs; ++round) {
       check_interrupt();

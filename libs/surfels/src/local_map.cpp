@@ -15,8 +15,8 @@ namespace {
 /// Normal of the points around one, zero where they form no plane.
 Eigen::Vector3f plane_normal(const Eigen::Vector3f& sum, const Eigen::Matrix3f& products, int count) {
   constexpr int kLeastPoints = 6;
-  constexpr float kFlat = 0.1F;   // thickness^2 against width^2
-  constexpr float kWide = 0.01F;  // a line has no normal
+  constexpr float kFlat = 0.1F;  // thickness^2 against width^2
+  constexpr float kWide = 0.3F;  // a line has no normal, and a lone ring with its noise, or two, hardly one
   if (count < kLeastPoints) {
     return Eigen::Vector3f::Zero();
   }

@@ -6,18 +6,17 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "loopmark/report/page.hpp"
+#include "drill_page.hpp"
+#include "loopmark/report/table.hpp"
 #include "loopmark/statistics/statistics.hpp"
 #include "loopmark/storage/files.hpp"
 #include "loopmark/text/text_table.hpp"
-#include "loopmark/workflows/drill_run.hpp"
+#include "map_report.hpp"
 
 namespace loopmark::workflows {
 namespace {
 
 using report::Cell;
-using report::Page;
-using report::Plot;
 using report::Table;
 
 /// The events of one kind, counted.
@@ -97,17 +96,13 @@ const kidnap_benchmark::DrillScan& arrival(const DrillResult& r, const kidnap_be
   return (event.disturbance == kidnap_benchmark::Disturbance::kOtherDrive ? r.drive_scans : r.scans)[event.after];
 }
 
-report::Table events_table(const DrillResult& r,
-                           const std::function<bool(const kidnap_benchmark::DrillOutcome&)>& shown) {
+report::Table events_table(const DrillResult& r) {
   report::Table table({"event",       "disturbance", "stratum",  "last scan", "first scan", "gap_s",   "yaw_deg",
                        "verdict",     "seconds",     "driven_m", "noticed",   "p_correct",  "error_m", "error_deg",
                        "placed scan", "x",           "y",        "truth_x",   "truth_y",    "reason"});
   for (std::size_t i = 0; i < r.events.size(); ++i) {
     const kidnap_benchmark::DrillEvent& e = r.events[i];
     const kidnap_benchmark::DrillOutcome& o = r.outcomes[i];
-    if (!shown(o)) {
-      continue;
-    }
     const bool placed = o.verdict != kidnap_benchmark::DrillVerdict::kNone;
     const auto number = [&](double value, int decimals) {
       return placed ? report::number_cell(value, decimals) : report::Cell("");
@@ -136,56 +131,6 @@ report::Table events_table(const DrillResult& r,
                o.reason});
   }
   return table;
-}
-
-report::Plot map_plot(const DrillResult& r) {
-  report::Plot plot("Where tracking was cut", "x [m]", "y [m]");
-  plot.equal_axes();
-  std::vector<double> x, y;
-  for (const Pose& pose : r.T_map_scan) {
-    x.push_back(pose.translation().x());
-    y.push_back(pose.translation().y());
-  }
-  plot.line("map", x, y, {.colour = report::kGrey});
-  const auto points = [&](const std::string& label, std::size_t colour, const auto& shown) {
-    std::vector<double> px, py;
-    for (std::size_t i = 0; i < r.events.size(); ++i) {
-      if (shown(r.outcomes[i])) {
-        px.push_back(arrival(r, r.events[i]).T_map_lidar.translation().x());
-        py.push_back(arrival(r, r.events[i]).T_map_lidar.translation().y());
-      }
-    }
-    plot.points(label, px, py, {.colour = report::palette(colour), .radius = 4.0});
-  };
-  points("right in time", 2,
-         [&](const kidnap_benchmark::DrillOutcome& o) { return kidnap_benchmark::succeeded(o, r.options); });
-  points("right later", 0, [&](const kidnap_benchmark::DrillOutcome& o) {
-    return o.verdict == kidnap_benchmark::DrillVerdict::kRecovered && !kidnap_benchmark::succeeded(o, r.options);
-  });
-  points("no pose", 1,
-         [](const kidnap_benchmark::DrillOutcome& o) { return o.verdict == kidnap_benchmark::DrillVerdict::kNone; });
-  points("wrong", 5,
-         [](const kidnap_benchmark::DrillOutcome& o) { return o.verdict == kidnap_benchmark::DrillVerdict::kWrong; });
-  for (const kidnap_benchmark::DrillOutcome& o : r.outcomes) {
-    if (o.verdict == kidnap_benchmark::DrillVerdict::kWrong) {
-      plot.line("", {o.T_map_truth.translation().x(), o.T_map_answer.translation().x()},
-                {o.T_map_truth.translation().y(), o.T_map_answer.translation().y()},
-                {.colour = report::palette(5), .dashed = true});
-    }
-  }
-  return plot;
-}
-
-report::Plot time_plot(const DrillResult& r) {
-  std::vector<double> seconds;
-  for (const kidnap_benchmark::DrillOutcome& o : r.outcomes) {
-    seconds.push_back(
-        o.verdict == kidnap_benchmark::DrillVerdict::kRecovered ? o.seconds : std::numeric_limits<double>::quiet_NaN());
-  }
-  const report::Histogram histogram = report::histogram(seconds, 0.0, r.options.limit_s, 30);
-  report::Plot plot("Time to a right pose", "seconds of driving", "events");
-  plot.bars("", histogram.edges, histogram.counts);
-  return plot;
 }
 
 std::string method(const DrillResult& r) {
@@ -222,31 +167,23 @@ std::string summary_json(const DrillResult& r) {
         t.seconds.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(statistics::quantile(t.seconds, 0.5));
     json["by"][t.name] = of;
   }
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
 
-void write_drill(const std::filesystem::path& folder, const DrillResult& r) {
-  const auto every = [](const kidnap_benchmark::DrillOutcome&) { return true; };
-  const auto wrong = [](const kidnap_benchmark::DrillOutcome& o) {
-    return o.verdict == kidnap_benchmark::DrillVerdict::kWrong;
-  };
-  storage::write_file_atomically(folder / "drill.csv", events_table(r, every).csv());
+void write_drill(const std::filesystem::path& folder, const std::filesystem::path& run, const DrillResult& r) {
+  storage::write_file_atomically(folder / "drill.csv", events_table(r).csv());
   storage::write_file_atomically(folder / "summary.json", summary_json(r));
   const Tally all = tallies(r).front();
-  report::Page page("Kidnap drill", r.run + (r.drive.empty() ? "" : ", and the drive " + r.drive));
-  page.facts({{"events", std::to_string(all.events)},
-              {"right within " + text::fixed(r.options.within_s, 1) + " s", interval_text(all.in_time, all.events)},
-              {"wrong", std::to_string(all.wrong)},
-              {"no pose", std::to_string(all.none)},
-              {"seed", std::to_string(r.options.seed)}});
-  page.heading("Results").table(table_of(r)).paragraph(method(r));
-  page.heading("Places").plot(map_plot(r));
-  page.heading("Time").plot(time_plot(r));
-  page.heading("Wrong poses").table(events_table(r, wrong));
-  page.heading("All events").details("every event", report::Page("").table(events_table(r, every)));
-  storage::write_file_atomically(folder / "report.html", page.html());
+  internal::write_drill_page(
+      folder, run, r,
+      {{"events", std::to_string(all.events)},
+       {"right within " + text::fixed(r.options.within_s, 1) + " s", interval_text(all.in_time, all.events)},
+       {"wrong", std::to_string(all.wrong)},
+       {"no pose", std::to_string(all.none)},
+       {"seed", std::to_string(r.options.seed)}},
+      method(r), {internal::page_table("Where tracking was cut", table_of(r))});
 }
 
 std::string drill_table(const DrillResult& r) { return table_of(r).text(); }

@@ -98,7 +98,13 @@ std::vector<Pose> truth_of_map(const OpenedRun& run, const DrillJob& job) {
     throw InputError(run.folder.name().string(), "", "true poses of its scans are needed to judge another drive",
                      "give --map-truth FILE");
   }
-  std::vector<Pose> truth = io::read_trajectory(file).poses;
+  std::vector<double> stamps_s;
+  for (const map_store::ScanRecord& scan : run.scans) {
+    stamps_s.push_back(scan.stamp_s);
+  }
+  std::vector<Pose> truth = job.map_truth.empty()
+                                ? io::read_trajectory(file).poses
+                                : io::poses_of_scans(io::read_trajectory(file), stamps_s, file.string());
   if (truth.size() != run.scans.size()) {
     throw InputError(
         file.string(), "",
@@ -110,7 +116,13 @@ std::vector<Pose> truth_of_map(const OpenedRun& run, const DrillJob& job) {
 std::vector<kidnap_benchmark::DrillScan> scans_of_drive(const OpenedRun& run, const mapping::SolvedMap& map,
                                                         const std::vector<kidnap_benchmark::PlaceCharacter>& places,
                                                         const DrillJob& job, const io::DriveLog& drive) {
-  const std::vector<Pose> truth = job.drive_truth.empty() ? drive.truth() : io::read_trajectory(job.drive_truth).poses;
+  std::vector<double> stamps_s;
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    stamps_s.push_back(drive.stamp_s(i));
+  }
+  const std::vector<Pose> truth = job.drive_truth.empty() ? drive.truth()
+                                                          : io::poses_of_scans(io::read_trajectory(job.drive_truth),
+                                                                               stamps_s, job.drive_truth.string());
   if (truth.size() != drive.size()) {
     throw InputError((job.drive_truth.empty() ? job.drive : job.drive_truth).string(), "",
                      std::to_string(truth.size()) + " true poses for " + std::to_string(drive.size()) + " scans",
@@ -159,7 +171,7 @@ std::vector<kidnap_benchmark::DrillOutcome> run_events(const kidnap_benchmark::D
                                                        const std::vector<kidnap_benchmark::DrillEvent>& events,
                                                        const kidnap_benchmark::DrillOptions& options) {
   std::vector<kidnap_benchmark::DrillOutcome> outcomes(events.size());
-  Progress progress("events", events.size());
+  Progress progress("drill", "events", events.size());
   std::mutex mutex;
   std::size_t recovered = 0;
   std::size_t wrong = 0;
@@ -201,12 +213,12 @@ DrillResult run_drill(const DrillJob& job, const std::string& title, const Progr
   stage.relocalization = options.relocalization;
   stage.odometry = options.odometry;
   stage.map = localization::open_place_map(run.folder, map, options.relocalization, options.registration, left_out);
-  const odometry::Compensation of_run = compensation_of(*log, run.options.slam);
+  const odometry::Compensation of_run = compensation_of(*log, run.options.slam).used;
   odometry::Compensation of_drive = odometry::Compensation::kCompensated;
   stage.run = {scans_to_feed(run, map, places, left_out), reader(log, of_run)};
   if (!job.drive.empty()) {
     const std::shared_ptr<const io::DriveLog> drive = io::open_log(job.drive, options.log);
-    of_drive = compensation_of(*drive, options.slam);
+    of_drive = compensation_of(*drive, options.slam).used;
     stage.other = {scans_of_drive(run, map, places, job, *drive), reader(drive, of_drive)};
   }
   stage.compensation = is_raw(of_run) || is_raw(of_drive) ? odometry::Compensation::kRawGivenTimes

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,19 +26,27 @@ class InputRecord {
  public:
   InputRecord(const map_store::RunFolder& folder, const io::DriveLog& log);
 
+  /// The first `scans` scans were read before an interruption. Throws InputError naming a file that has changed since;
+  /// hashes that were lost are made again.
+  void verify(std::size_t scans);
+
   /// What is to be kept of the file of scan `index`; empty where it is that of the scan before, or cannot be read. Call
   /// it right after the scan was read, when the file is in memory. Thread-safe.
   std::string of_scan(std::size_t index) const;
   void keep(const std::string& line);
+  /// Makes what is kept last a power cut.
+  void sync() const { file_.sync(); }
 
   /// Writes records/inputs.sha256, which `sha256sum -c` understands in the folder of the log: the files beside the
   /// scans (times, poses, calibration), then the scans in order.
   InputSummary finish() const;
 
  private:
+  void take(const std::string& line, std::size_t number);
+
   const map_store::RunFolder& folder_;
   const io::DriveLog& log_;
-  std::vector<std::string> kept_;
+  std::map<std::size_t, std::string> kept_;  ///< "BYTES SHA256 NAME" of each scan; the last time that it was read
   storage::RecordWriter file_;
 };
 

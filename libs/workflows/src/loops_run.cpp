@@ -14,7 +14,7 @@
 #include "loopmark/mapping/loop_closer.hpp"
 #include "loopmark/storage/files.hpp"
 #include "loopmark/workflows/merge_run.hpp"
-#include "loopmark/workflows/pair_registration.hpp"
+#include "pair_registration.hpp"
 
 namespace loopmark::workflows {
 namespace fs = std::filesystem;
@@ -55,7 +55,7 @@ void veto(OpenedRun& run, const std::vector<mapping::Keyframe>& keyframes, const
 
 map_store::LoopRecord registered(const OpenedRun& run, const std::vector<mapping::Keyframe>& keyframes,
                                  const KeyframePair& pair) {
-  const auto registrar = pair_registration_of(run.options);
+  const auto registrar = internal::pair_registration_of(run.options);
   map_store::LoopRecord loop;
   loop.source = pair.source;
   loop.target = pair.target;
@@ -113,16 +113,6 @@ nlohmann::json json_file(const fs::path& path) {
   }
 }
 
-MapTimes times_of(const OpenedRun& run) {
-  const nlohmann::json json = json_file(run.folder / "timings.json");
-  MapTimes times;
-  times.reading = json.value("reading", 0.0);
-  times.odometry = json.value("odometry", 0.0);
-  times.loops = json.value("loops", 0.0);
-  times.whole = json.value("whole", 0.0);
-  return times;
-}
-
 /// The manifest of the new run: the input as it was, and the hashes of files that are shared with the old run.
 map_export::Manifest manifest_of(const OpenedRun& run, const std::vector<std::string>& arguments) {
   const nlohmann::json old = json_file(run.folder / "manifest.json");
@@ -155,17 +145,33 @@ MapSummary write_all(const OpenedRun& run, const mapping::SolvedMap& map, const 
   MapTimes times = times_of(run);
   times.solving = map.solution.seconds;
   times.products = watch.seconds();
-  MapSummary summary = summarize(run.scans, run.loops, map, truth);
-  const std::vector<multi_session::SessionRecord> drives = multi_session::read_sessions(run.folder);
-  summary.drives = drive_summaries(drives, map, truth);
-  summary.duration_s = driven_s(drives, run.scans);
-  summary.compensation = json_file(run.folder / "summary.json").value("compensation", "unknown");
-  write_map_report(folder, run.scans, run.loops, map, summary, times, truth);
+  const MapSummary summary = summary_of(run, map, truth);
+  write_map_report(folder, run.scans, run.loops, map, summary, times, truth, run.options.slam.min_loop_p,
+                   run.folder / "report.html");
   write_summary(folder, summary, times);
   return summary;
 }
 
 }  // namespace
+
+MapTimes times_of(const OpenedRun& run) {
+  const nlohmann::json json = json_file(run.folder / "timings.json");
+  MapTimes times;
+  times.reading = json.value("reading", 0.0);
+  times.odometry = json.value("odometry", 0.0);
+  times.loops = json.value("loops", 0.0);
+  times.whole = json.value("whole", 0.0);
+  return times;
+}
+
+MapSummary summary_of(const OpenedRun& run, const mapping::SolvedMap& map, const std::vector<Pose>& truth) {
+  MapSummary summary = summarize(run.scans, run.loops, map, truth);
+  const std::vector<multi_session::SessionRecord> drives = multi_session::read_sessions(run.folder, run.scans);
+  summary.drives = drive_summaries(drives, map, truth);
+  summary.duration_s = driven_s(drives, run.scans);
+  summary.compensation = json_file(run.folder / "summary.json").value("compensation", "unknown");
+  return summary;
+}
 
 void apply(const LoopChanges& changes, OpenedRun& run) {
   const std::vector<mapping::Keyframe> keyframes = mapping::keyframes_of(run.scans);

@@ -1,122 +1,32 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "map_report.hpp"
+
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "loopmark/report/page.hpp"
-#include "loopmark/report/plot.hpp"
-#include "loopmark/report/table.hpp"
+#include "loopmark/core/number_text.hpp"
+#include "loopmark/io/point_files.hpp"
+#include "loopmark/map_store/loop_decisions.hpp"
 #include "loopmark/storage/files.hpp"
-#include "loopmark/workflows/map_run.hpp"
 #include "part_tables.hpp"
 
-namespace loopmark::workflows {
+namespace loopmark::workflows::internal {
 namespace {
 
-using report::Page;
-using report::Plot;
-using report::Table;
-
-std::string fixed(double value, int decimals) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
-
-struct Path {
-  std::vector<double> x, y, z;
-};
-
-Path path_of(const std::vector<Pose>& poses) {
-  Path path;
-  for (const Pose& pose : poses) {
-    path.x.push_back(pose.translation().x());
-    path.y.push_back(pose.translation().y());
-    path.z.push_back(pose.translation().z());
-  }
-  return path;
-}
-
-std::vector<Pose> odometry_of(const std::vector<map_store::ScanRecord>& scans) {
-  std::vector<Pose> poses;
-  for (const map_store::ScanRecord& scan : scans) {
-    poses.push_back(scan.T_segment_lidar);
-  }
-  return poses;
-}
-
-report::Plot trajectory_plot(const std::vector<map_store::ScanRecord>& scans,
-                             const std::vector<map_store::LoopRecord>& loops, const mapping::SolvedMap& map) {
-  const Path odometry = path_of(odometry_of(scans));
-  const Path solved = path_of(map.T_map_scan);
-  report::Plot plot("Trajectory", "x [m]", "y [m]");
-  plot.equal_axes();
-  plot.line("odometry", odometry.x, odometry.y, {.dashed = true}).line("map", solved.x, solved.y);
-  for (std::size_t i = 0; i < map.loops.size(); ++i) {
-    if (map.loops[i].accepted) {
-      const Eigen::Vector3d a = map.T_map_keyframe[loops[i].source].translation();
-      const Eigen::Vector3d b = map.T_map_keyframe[loops[i].target].translation();
-      plot.line("", {a.x(), b.x()}, {a.y(), b.y()}, {.colour = report::palette(3), .width = 1.0});
-    }
-  }
-  return plot;
-}
-
-report::Plot against_scan(const std::string& title, const std::string& axis, const std::vector<double>& values) {
-  std::vector<double> scans(values.size());
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    scans[i] = static_cast<double>(i);
-  }
-  report::Plot plot(title, "scan", axis);
-  plot.line("", scans, values);
-  return plot;
-}
-
-/// How far the loops have moved each scan from where odometry alone put it.
-report::Plot drift_plot(const std::vector<map_store::ScanRecord>& scans, const mapping::SolvedMap& map) {
-  std::vector<double> moved;
-  for (std::size_t i = 0; i < map.T_map_scan.size(); ++i) {
-    moved.push_back((map.T_map_scan[i].translation() - scans[i].T_segment_lidar.translation()).norm());
-  }
-  return against_scan("Drift corrected", "moved by the loops [m]", moved);
-}
-
-report::Plot tracking_plot(const std::vector<map_store::ScanRecord>& scans) {
-  std::vector<double> share;
-  for (const map_store::ScanRecord& scan : scans) {
-    share.push_back(scan.inlier_share);
-  }
-  return against_scan("Tracking", "share of points that fit the map", share);
-}
-
-report::Plot timing_plot(const MapTimes& t) {
-  report::Plot plot("Time", "", "seconds");
-  plot.categories({"reading", "odometry", "loops", "solving", "products"});
-  plot.category_bars("", {t.reading, t.odometry, t.loops, t.solving, t.products});
-  return plot;
-}
-
-report::Table loop_table(const std::vector<map_store::LoopRecord>& loops, const mapping::SolvedMap& map) {
-  report::Table table({"source scan", "target scan", "proposed by", "accepted", "P(correct)", "reason"});
-  for (std::size_t i = 0; i < map.loops.size(); ++i) {
-    const map_store::LoopRecord& loop = loops[i];
-    table.row({report::count_cell(map.keyframes[loop.source].scan), report::count_cell(map.keyframes[loop.target].scan),
-               loop.origin, map.loops[i].accepted ? "yes" : "no", report::number_cell(loop.p_correct, 3),
-               map.loops[i].reason});
-  }
-  return table;
-}
+std::string fixed(double value, int decimals) { return format_text("%.*f", decimals, value); }
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
 Rows rows(const MapSummary& s, const MapTimes& t) {
-  Rows rows = {{"scans", std::to_string(s.scans) + " (" + std::to_string(s.damaged) + " damaged, " +
+  Rows rows = {{"verdict", mapping::verdict_text(s.doubts)},
+               {"scans", std::to_string(s.scans) + " (" + std::to_string(s.damaged) + " damaged, " +
                              std::to_string(s.recovered) + " recovered)"},
                {"driven", fixed(s.path_m, 1) + " m in " + fixed(s.duration_s, 1) + " s"},
                {"scans were", s.compensation},
                {"keyframes", std::to_string(s.keyframes)},
                {"loops", std::to_string(s.loops) + " accepted of " + std::to_string(s.candidates) + " candidates"},
-               {"components", internal::components_text(s.components)},
+               {"components", components_text(s.components)},
                {"time", fixed(t.whole, 1) + " s, " + fixed(static_cast<double>(s.scans) / t.whole, 1) + " scans/s, " +
                             fixed(s.duration_s / t.whole, 2) + " x real time"}};
   if (s.absolute) {
@@ -133,33 +43,94 @@ Rows rows(const MapSummary& s, const MapTimes& t) {
   return rows;
 }
 
+std::vector<map_page::PageTable> tables_of(const MapSummary& summary) {
+  std::vector<map_page::PageTable> tables;
+  if (!summary.drives.empty()) {
+    tables.push_back(page_table("Drives", drive_table(summary.drives)));
+  }
+  if (!summary.inter_session_loops.empty()) {
+    tables.push_back(page_table("Between drives", inter_session_table(summary.inter_session_loops)));
+  }
+  if (summary.components.size() > 1) {
+    tables.push_back(page_table("Parts without a common frame", component_table(summary.components)));
+  }
+  return tables;
+}
+
 }  // namespace
+
+map_page::PageTable page_table(const std::string& title, const report::Table& table) {
+  map_page::PageTable result{title, table.columns(), {}};
+  for (const std::vector<report::Cell>& row : table.rows()) {
+    std::vector<std::string>& cells = result.rows.emplace_back();
+    for (const report::Cell& cell : row) {
+      cells.push_back(cell.text);
+    }
+  }
+  return result;
+}
+
+map_page::MapPageInput map_page_input(const map_store::RunFolder& folder, const map_page::MapRecords& records,
+                                      const MapSummary& summary, const MapTimes& times) {
+  map_page::MapPageInput input{
+      .name = folder.name().string(),
+      .run = folder.name().string(),
+      .facts = rows(summary, times),
+      .note = summary.absolute ? mapping::trajectory_error_definitions() : "",
+      .time_parts = {{"reading", times.reading},
+                     {"odometry", times.odometry},
+                     {"loops", times.loops},
+                     {"solving", times.solving},
+                     {"products", times.products}},
+      .sessions = {},
+      .tables = tables_of(summary),
+      .edits = {},
+      .records = records,
+      .answers = {},
+      .earlier_page = {},
+      .keyframe_cloud = [&](std::size_t number) { return io::read_point_file(folder.keyframe(number, "pcd")).cloud; }};
+  for (const DriveSummary& drive : summary.drives) {
+    if (drive.belongs) {
+      input.sessions.push_back({drive.name, drive.first_scan, drive.scans});
+    }
+  }
+  return input;
+}
+
+}  // namespace loopmark::workflows::internal
+
+namespace loopmark::workflows {
+
+using namespace internal;  // NOLINT(google-build-using-namespace): the other half of this file
 
 void write_map_report(const map_store::RunFolder& folder, const std::vector<map_store::ScanRecord>& scans,
                       const std::vector<map_store::LoopRecord>& loops, const mapping::SolvedMap& map,
-                      const MapSummary& summary, const MapTimes& times, const std::vector<Pose>& truth) {
-  report::Page page("Map", folder.name().string());
-  page.facts(rows(summary, times));
-  page.heading("Trajectory");
-  report::Plot trajectory = trajectory_plot(scans, loops, map);
-  page.plot(trajectory, truth.empty() ? "" : mapping::trajectory_error_definitions());
-  if (!summary.drives.empty()) {
-    page.heading("Drives").table(internal::drive_table(summary.drives));
-  }
-  if (!summary.inter_session_loops.empty()) {
-    page.heading("Between drives").table(internal::inter_session_table(summary.inter_session_loops));
-  }
-  if (summary.components.size() > 1) {
-    page.heading("Parts without a common frame").table(internal::component_table(summary.components));
-  }
-  page.heading("Drift and tracking").plots({drift_plot(scans, map), tracking_plot(scans)});
-  page.heading("Loops").table(loop_table(loops, map));
-  page.heading("Time").plot(timing_plot(times));
-  storage::write_file_atomically(folder / "report.html", page.html());
+                      const MapSummary& summary, const MapTimes& times, const std::vector<Pose>& truth,
+                      double min_loop_p, const std::filesystem::path& earlier_page) {
+  const std::vector<map_store::LoopDecision> decisions = map_store::read_loop_decisions(folder);
+  map_page::MapPageInput input =
+      map_page_input(folder, {scans, loops, map, decisions, truth, min_loop_p}, summary, times);
+  input.earlier_page = earlier_page;
+  const web_page::Document page = map_page::map_page(input);
+  storage::write_file_atomically(folder / "report.html", [&](std::ostream& out) { page.write(out); });
 }
 
+namespace {
+
+nlohmann::ordered_json doubts_json(const std::vector<mapping::MapDoubt>& doubts) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const mapping::MapDoubt& doubt : doubts) {
+    list.push_back({{"reason", doubt.reason}, {"scans", doubt.scans}});
+  }
+  return list;
+}
+
+}  // namespace
+
 void write_summary(const map_store::RunFolder& folder, const MapSummary& s, const MapTimes& t) {
-  nlohmann::ordered_json json = {{"scans", s.scans},
+  nlohmann::ordered_json json = {{"verdict", s.doubts.empty() ? "good" : "doubtful"},
+                                 {"doubts", doubts_json(s.doubts)},
+                                 {"scans", s.scans},
                                  {"damaged", s.damaged},
                                  {"recovered", s.recovered},
                                  {"keyframes", s.keyframes},
@@ -170,10 +141,10 @@ void write_summary(const map_store::RunFolder& folder, const MapSummary& s, cons
                                  {"duration_s", s.duration_s},
                                  {"compensation", s.compensation},
                                  {"damage", s.damage},
-                                 {"parts", internal::components_json(s.components)}};
+                                 {"parts", components_json(s.components)}};
   if (!s.drives.empty()) {
-    json["drives"] = internal::drives_json(s.drives);
-    json["joints"] = internal::inter_session_json(s.inter_session_loops);
+    json["drives"] = drives_json(s.drives);
+    json["joints"] = inter_session_json(s.inter_session_loops);
   }
   if (s.absolute) {
     json["ate_rmse_m"] = s.absolute->rmse_m;
@@ -183,10 +154,12 @@ void write_summary(const map_store::RunFolder& folder, const MapSummary& s, cons
     json["t_err_percent"] = s.kitti->translation_percent;
     json["r_err_deg_per_m"] = s.kitti->rotation_deg_per_m;
   }
-  storage::write_file_atomically(folder / "summary.json", json.dump(1) + "\n");
+  storage::write_file_atomically(folder / "summary.json",
+                                 json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   const nlohmann::ordered_json seconds = {{"reading", t.reading}, {"odometry", t.odometry}, {"loops", t.loops},
                                           {"solving", t.solving}, {"products", t.products}, {"whole", t.whole}};
-  storage::write_file_atomically(folder / "timings.json", seconds.dump(1) + "\n");
+  storage::write_file_atomically(folder / "timings.json",
+                                 seconds.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 std::string closing_table(const MapOutcome& outcome) {

@@ -48,6 +48,7 @@ MapSummary summarize(const std::vector<map_store::ScanRecord>& scans, const std:
   s.components = mapping::map_components(scans, loops, map);
   s.path_m = map.keyframes.back().path_m;
   s.duration_s = scans.back().stamp_s - scans.front().stamp_s;
+  s.doubts = mapping::doubts_of(scans, loops, map);
   judge(scans, map, truth, s);
   return s;
 }

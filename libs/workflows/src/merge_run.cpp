@@ -5,11 +5,12 @@
 #include <algorithm>
 
 #include "loopmark/core/error.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/map_export/products.hpp"
 #include "loopmark/storage/files.hpp"
-#include "loopmark/workflows/pair_registration.hpp"
+#include "pair_registration.hpp"
 
 namespace loopmark::workflows {
 namespace fs = std::filesystem;
@@ -18,7 +19,8 @@ namespace {
 multi_session::JoinedDrives join(const multi_session::SessionSet& set, const map_store::RunFolder& folder,
                                  const ProgramOptions& options) {
   LoopProgress progress;
-  return multi_session::join_sessions(set, folder, options.slam, options.pose_graph, *pair_registration_of(options),
+  return multi_session::join_sessions(set, folder, options.slam, options.pose_graph,
+                                      *internal::pair_registration_of(options),
                                       [&](std::size_t done, std::size_t total) { progress.show(done, total); });
 }
 
@@ -32,7 +34,7 @@ void require_inter_session_loop(const multi_session::JoinedDrives& joined) {
   for (const multi_session::InterSessionLoop& inter_session_loop : joined.inter_session_loops) {
     text += (text.empty() ? "" : "; ") + joined.set.drives[inter_session_loop.first].name + " with " +
             joined.set.drives[inter_session_loop.second].name + ": " + std::to_string(inter_session_loop.candidates) +
-            " pairs of places tried, best P(correct) " + std::to_string(inter_session_loop.best_p).substr(0, 4) + ", " +
+            " pairs of places tried, best P(correct) " + format_text("%.2f", inter_session_loop.best_p) + ", " +
             std::to_string(inter_session_loop.accepted) + " loops";
     text += inter_session_loop.contradicted
                 ? ", only " + std::to_string(inter_session_loop.agree) + " of " +
@@ -201,7 +203,7 @@ MergeOutcome merge_runs(const MergeInput& input, const map_store::RunFolder& fol
   summary.inter_session_loops = all_inter_session_loops(joined);
   outcome.warnings = warnings_of(summary.drives);
   times.whole = whole.seconds();
-  write_map_report(folder, set.scans, set.loops, map, summary, times, truth);
+  write_map_report(folder, set.scans, set.loops, map, summary, times, truth, options.slam.min_loop_p);
   write_summary(folder, summary, times);
   map_export::write_manifest(folder, {arguments, names_of(input.runs), "", started, times.whole, 0});
   return outcome;

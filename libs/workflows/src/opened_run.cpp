@@ -28,9 +28,9 @@ std::size_t whole_number(const std::string& digits, const std::string& word) {
 
 OpenedRun open_run(const std::filesystem::path& run, const std::vector<std::string>& settings) {
   const map_store::RunFolder folder = map_store::RunFolder::open(run);
-  OpenedRun opened{folder, config::load<ProgramOptions>(folder / "config.yaml", settings),
-                   map_store::read_scan_records(folder), map_store::read_loop_records(folder),
-                   map_store::read_loop_decisions(folder)};
+  map_store::RunRecords records = map_store::read_run_records(folder);
+  OpenedRun opened{folder, config::load<ProgramOptions>(folder / "config.yaml", settings), std::move(records.scans),
+                   std::move(records.loops), std::move(records.decisions)};
   if (mapping::keyframes_of(opened.scans).empty()) {
     throw InputError(folder.scan_records().string(), "", "the run holds no keyframe");
   }

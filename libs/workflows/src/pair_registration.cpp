@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: loopmark contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loopmark/workflows/pair_registration.hpp"
+#include "pair_registration.hpp"
 
 #include "loopmark/feature_registration/feature_registration.hpp"
 #include "loopmark/feature_registration/named_algorithms.hpp"
 
-namespace loopmark::workflows {
+namespace loopmark::workflows::internal {
 
 registration::PairRegistrationPtr pair_registration_of(const ProgramOptions& options) {
   registration::PairRegistrationPtr engine = registration::engine_registration(options.registration);
@@ -19,4 +19,4 @@ registration::PairRegistrationPtr pair_registration_of(const ProgramOptions& opt
                                              std::move(engine));
 }
 
-}  // namespace loopmark::workflows
+}  // namespace loopmark::workflows::internal

@@ -4,14 +4,12 @@
 
 #include <cstdio>
 
+#include "loopmark/core/number_text.hpp"
+
 namespace loopmark::workflows::internal {
 namespace {
 
-std::string metres(double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.1f m", value);
-  return text;
-}
+std::string metres(double value) { return format_text("%.1f m", value); }
 
 }  // namespace
 

@@ -10,10 +10,13 @@
 
 #include "loopmark/cloud/voxel.hpp"
 #include "loopmark/config/options_io.hpp"
+#include "loopmark/core/number_text.hpp"
 #include "loopmark/core/progress.hpp"
 #include "loopmark/feature_registration/named_algorithms.hpp"
 #include "loopmark/feature_registration/pipeline.hpp"
+#include "loopmark/features/descriptor_file.hpp"
 #include "loopmark/io/point_files.hpp"
+#include "loopmark/registration/evidence_text.hpp"
 #include "loopmark/report/picture.hpp"
 #include "loopmark/storage/files.hpp"
 
@@ -21,12 +24,6 @@ namespace loopmark::workflows {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string formatted(const char* format, double a, double b = 0.0, double c = 0.0) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
 
 template <class Matrix>
 std::vector<double> row_major(const Matrix& matrix) {
@@ -50,11 +47,35 @@ Json mode_json(const registration::RegistrationMode& mode) {
           {"evidence", evidence}};
 }
 
+/// What `loopmark describe` or a network wrote for a scan.
+feature_registration::DescribedScan from_file(const RegisterRun& run, const std::string& scan, const PointCloud& cloud,
+                                              const feature_registration::FeatureRegistrationOptions& options) {
+  const std::filesystem::path file =
+      std::filesystem::path(run.descriptor) / std::filesystem::path(scan).stem().concat(".npz");
+  features::DescriptorFile described = features::read_descriptors(file);
+  return feature_registration::described_scan(std::move(described.points), std::move(described.descriptors), cloud,
+                                              options);
+}
+
+feature_registration::FeatureRegistrationResult register_from_files(
+    const RegisterRun& run, const feature_registration::FeatureRegistrationOptions& options) {
+  const auto source = from_file(run, run.source_name, run.source, options);
+  const auto target = from_file(run, run.target_name, run.target, options);
+  feature_registration::require_comparable(source, "the source " + run.source_name, target,
+                                           "the target " + run.target_name);
+  return feature_registration::register_described(source, target, options);
+}
+
 /// The paper's variants answer without a probability: they never abstain unless they found nothing.
 registration::RegistrationResult run_paper(const RegisterRun& run,
-                                           const feature_registration::FeatureRegistrationOptions& options) {
+                                           feature_registration::FeatureRegistrationOptions options) {
+  const bool files = std::filesystem::is_directory(run.descriptor);
+  if (!files && !run.descriptor.empty()) {
+    options.descriptor = run.descriptor;
+  }
   const feature_registration::FeatureRegistrationResult paper =
-      feature_registration::register_features(run.source, run.target, options);
+      files ? register_from_files(run, options)
+            : feature_registration::register_features(run.source, run.target, options);
   registration::RegistrationResult result;
   result.T_target_source = paper.T_target_source;
   result.answered = paper.found;
@@ -73,13 +94,22 @@ registration::RegistrationResult run_engine(const RegisterRun& run, const regist
   return result;
 }
 
+/// The motion of a record: the answer, else the best guess that was withheld, else none.
+std::vector<double> recorded_motion(const Json& json) {
+  if (!json.at("T_target_source").is_null()) {
+    return json.at("T_target_source").get<std::vector<double>>();
+  }
+  if (!json.at("modes").empty()) {
+    return json.at("modes").at(0).at("T_target_source").get<std::vector<double>>();
+  }
+  return row_major(Pose::Identity().matrix());
+}
+
 std::string matrix_text(const Pose& pose) {
   std::string text;
   for (int row = 0; row < 4; ++row) {
-    char line[128];
-    std::snprintf(line, sizeof line, "  %12.6f %12.6f %12.6f %12.4f\n", pose.matrix()(row, 0), pose.matrix()(row, 1),
-                  pose.matrix()(row, 2), pose.matrix()(row, 3));
-    text += line;
+    text += format_text("  %12.6f %12.6f %12.6f %12.4f\n", pose.matrix()(row, 0), pose.matrix()(row, 1),
+                        pose.matrix()(row, 2), pose.matrix()(row, 3));
   }
   return text;
 }
@@ -88,6 +118,10 @@ std::string matrix_text(const Pose& pose) {
 
 void run_registration(RegisterRun& run, const ProgramOptions& options) {
   if (run.algorithm == "engine") {
+    if (!run.descriptor.empty()) {
+      throw InputError("--descriptor " + run.descriptor +
+                       ": the engine has its own; name a variant of the paper, for example --algorithm ransac_gpf");
+    }
     run.result = run_engine(run, options.registration);
   } else {
     run.result = run_paper(
@@ -95,48 +129,83 @@ void run_registration(RegisterRun& run, const ProgramOptions& options) {
   }
 }
 
+namespace {
+
+std::string motion_text(const Pose& T_target_source) {
+  const Eigen::Vector3d t = T_target_source.translation();
+  const Eigen::Vector3d angles = euler_degrees(T_target_source.linear());
+  return matrix_text(T_target_source) + format_text("translation   %.3f %.3f %.3f m\n", t.x(), t.y(), t.z()) +
+         format_text("roll pitch yaw %.3f %.3f %.3f deg\n", angles.x(), angles.y(), angles.z());
+}
+
+/// An answer that was withheld does not look like one: no matrix, and what was found under another name.
+std::string unknown_text(const RegisterRun& run) {
+  const registration::RegistrationResult& r = run.result;
+  std::string text = "UNKNOWN: where " + run.source_name + " stands in " + run.target_name + " cannot be told (" +
+                     run.algorithm + ")\nreason        " + r.reason + "\n";
+  if (run.algorithm == "engine") {
+    text += format_text("P(correct)    %.3f for the best guess, too little to answer (registration.min_p_correct)\n",
+                        r.p_correct);
+  }
+  return text;
+}
+
+std::string modes_text(const std::vector<registration::RegistrationMode>& modes) {
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(modes.size(), kShown); ++i) {
+    const Eigen::Vector3d at = modes[i].T_target_source.translation();
+    text += "mode " + std::to_string(i + 1) + format_text("        P %.3f", modes[i].p_correct) +
+            format_text(", source at %.1f %.1f %.1f m", at.x(), at.y(), at.z()) +
+            format_text(", yaw %.1f deg", euler_degrees(modes[i].T_target_source.linear()).z()) + " (" +
+            modes[i].origin + ")\n";
+  }
+  return text + registration::evidence_table(modes, kShown);
+}
+
+}  // namespace
+
 std::string registration_text(const RegisterRun& run) {
   const registration::RegistrationResult& r = run.result;
-  const Eigen::Vector3d t = r.T_target_source.translation();
-  const Eigen::Vector3d angles = euler_degrees(r.T_target_source.linear());
-  std::string text = "T_target_source of " + run.source_name + " in " + run.target_name + " (" + run.algorithm + ")\n" +
-                     matrix_text(r.T_target_source);
-  text += formatted("translation   %.3f %.3f %.3f m\n", t.x(), t.y(), t.z());
-  text += formatted("roll pitch yaw %.3f %.3f %.3f deg\n", angles.x(), angles.y(), angles.z());
-  text += r.answered ? "verdict       answered" : "verdict       UNKNOWN: " + r.reason;
-  if (run.algorithm == "engine") {
-    text += formatted(", P(correct) %.3f", r.p_correct);
-    text += formatted("\nuncertainty   %.3f m", std::sqrt(r.covariance.topLeftCorner<3, 3>().trace()));
-    for (std::size_t i = 0; i < std::min<std::size_t>(r.modes.size(), 3); ++i) {
-      const Eigen::Vector3d at = r.modes[i].T_target_source.translation();
-      text += "\nmode " + std::to_string(i + 1) +
-              formatted("  P %.3f at %.1f %.1f m ", r.modes[i].p_correct, at.x(), at.y());
-      for (const auto& [name, value] : r.modes[i].evidence) {
-        text += " " + name + formatted(" %.3g", value);
-      }
+  std::string text;
+  if (r.answered) {
+    text = "T_target_source of " + run.source_name + " in " + run.target_name + " (" + run.algorithm + ")\n" +
+           motion_text(r.T_target_source) + "verdict       answered";
+    if (run.algorithm == "engine") {
+      text += format_text(", P(correct) %.3f\nuncertainty   %.3f m", r.p_correct,
+                          std::sqrt(r.covariance.topLeftCorner<3, 3>().trace()));
     }
+    text += "\n";
+  } else {
+    text = unknown_text(run);
   }
-  text += "\nseconds      ";
+  text += modes_text(r.modes) + "seconds      ";
   for (const registration::StageTime& stage : r.timings) {
-    text += " " + stage.stage + formatted(" %.3f", stage.seconds);
+    text += " " + stage.stage + format_text(" %.3f", stage.seconds);
   }
   return text + "\n";
 }
 
 std::string registration_json(const RegisterRun& run) {
   const registration::RegistrationResult& r = run.result;
-  Json json = {{"source", run.source_name},  {"target", run.target_name},
-               {"algorithm", run.algorithm}, {"T_target_source", row_major(r.T_target_source.matrix())},
-               {"answered", r.answered},     {"reason", r.reason},
-               {"p_correct", r.p_correct},   {"covariance", row_major(r.covariance)},
-               {"modes", Json::array()},     {"seconds", Json::object()}};
+  Json json = {{"source", run.source_name},
+               {"target", run.target_name},
+               {"algorithm", run.algorithm},
+               {"descriptor", run.descriptor},
+               {"T_target_source", r.answered ? Json(row_major(r.T_target_source.matrix())) : Json()},
+               {"answered", r.answered},
+               {"reason", r.reason},
+               {"p_correct", r.p_correct},
+               {"covariance", row_major(r.covariance)},
+               {"modes", Json::array()},
+               {"seconds", Json::object()}};
   for (const registration::RegistrationMode& mode : r.modes) {
     json["modes"].push_back(mode_json(mode));
   }
   for (const registration::StageTime& stage : r.timings) {
     json["seconds"][stage.stage] = stage.seconds;
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 void write_registration_picture(const RegisterRun& run, const std::filesystem::path& path) {
@@ -172,9 +241,10 @@ Record read_record(const std::filesystem::path& folder) {
     record.run.source_name = json.at("source");
     record.run.target_name = json.at("target");
     record.run.algorithm = json.at("algorithm");
+    record.run.descriptor = json.value("descriptor", "");
     record.run.result.p_correct = json.at("p_correct");
     record.run.result.answered = json.at("answered");
-    const std::vector<double> motion = json.at("T_target_source");
+    const std::vector<double> motion = recorded_motion(json);
     for (std::size_t i = 0; i < 16; ++i) {
       record.run.result.T_target_source.matrix()(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) =
           motion.at(i);

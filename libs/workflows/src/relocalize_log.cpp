@@ -13,6 +13,7 @@
 #include "loopmark/io/trajectory.hpp"
 #include "loopmark/localization/run_place_map.hpp"
 #include "loopmark/map_store/run_records.hpp"
+#include "loopmark/workflows/compensation_of_log.hpp"
 #include "loopmark/workflows/map_run.hpp"
 
 namespace loopmark::workflows {
@@ -22,18 +23,20 @@ std::vector<localization::RelocalizedScan> place_scans(const RelocalizeJob& job,
                                                        const io::DriveLog& log) {
   const map_store::RunFolder run = map_store::RunFolder::open(job.run);
   const ProgramOptions made_with = config::load<ProgramOptions>(run / "config.yaml", {});
+  const map_store::RunRecords records = map_store::read_run_records(run);
   const mapping::SolvedMap solved =
-      mapping::solve_map(map_store::read_scan_records(run), map_store::read_loop_records(run), made_with.slam,
-                         made_with.pose_graph, map_store::read_loop_decisions(run));
+      mapping::solve_map(records.scans, records.loops, made_with.slam, made_with.pose_graph, records.decisions);
+  Progress reading("reading the map");
   const auto map = localization::open_place_map(run, solved, options.relocalization, options.registration);
-  const odometry::Compensation compensation = compensation_of(log, options.slam);
+  reading.finish();
+  const odometry::Compensation compensation = compensation_of(log, options.slam).used;
   const auto new_relocalizer = [&] {
     return std::make_unique<localization::Relocalizer>(map, options.relocalization, options.odometry, compensation,
                                                        log.info().sweep.value_or(cloud::SweepModel{}));
   };
   std::unique_ptr<localization::Relocalizer> relocalizer = new_relocalizer();
   std::vector<localization::RelocalizedScan> placed;
-  Progress progress("scans", (log.size() + job.every - 1) / job.every);
+  Progress progress("relocalization", "scans", (log.size() + job.every - 1) / job.every);
   for (std::size_t i = 0; i < log.size(); i += job.every) {
     check_interrupt();
     if (job.single) {
@@ -63,14 +66,17 @@ std::optional<Truth> read_truth(const RelocalizeJob& job, const io::DriveLog& lo
   if (job.map_truth.empty()) {
     return std::nullopt;
   }
-  std::vector<Pose> query = job.truth.empty() ? log.truth() : io::read_trajectory(job.truth).poses;
-  const std::vector<Pose> map = io::read_trajectory(job.run / "trajectory.tum").poses;
-  const std::vector<Pose> true_map = io::read_trajectory(job.map_truth).poses;
-  if (map.size() != true_map.size()) {
-    throw InputError(
-        job.map_truth.string(), "",
-        std::to_string(true_map.size()) + " poses for " + std::to_string(map.size()) + " scans of the run");
+  std::vector<double> stamps_s;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    stamps_s.push_back(log.stamp_s(i));
   }
+  std::vector<Pose> query = job.truth.empty()
+                                ? log.truth()
+                                : io::poses_of_scans(io::read_trajectory(job.truth), stamps_s, job.truth.string());
+  const io::Trajectory run = io::read_trajectory(job.run / "trajectory.tum");
+  const std::vector<Pose>& map = run.poses;
+  const std::vector<Pose> true_map =
+      io::poses_of_scans(io::read_trajectory(job.map_truth), run.stamps_s, job.map_truth.string());
   if (query.size() != log.size()) {
     throw InputError((job.truth.empty() ? job.log : job.truth).string(), "",
                      std::to_string(query.size()) + " true poses for " + std::to_string(log.size()) + " scans",
@@ -92,6 +98,8 @@ RelocalizeOutcome relocalize_log(const RelocalizeJob& job, const ProgramOptions&
   outcome.summary.seconds = watch.seconds();
   if (truth) {
     localization::judge(outcome.scans, truth->map, truth->query, outcome.summary);
+    outcome.map_truth = truth->map;
+    outcome.true_query = truth->query;
   }
   return outcome;
 }

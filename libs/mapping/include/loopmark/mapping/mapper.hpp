@@ -14,6 +14,7 @@
 #include "loopmark/odometry/odometry.hpp"
 #include "loopmark/registration/pair_registration.hpp"
 #include "loopmark/storage/record_file.hpp"
+#include "loopmark/storage/sha256.hpp"
 
 namespace loopmark::mapping {
 
@@ -39,6 +40,13 @@ class Mapper {
   /// The log is over: the last keyframe does not wait for another scan.
   void end_log() { flush_pending(); }
 
+  /// A scan with the very points of the one before it (a recorder that heard a topic twice): no motion, and nothing
+  /// new.
+  void add_copy(std::size_t scan, double stamp_s);
+
+  /// How the scans are deskewed.
+  odometry::Compensation compensation() const { return odometry_.compensation(); }
+
   /// A scan that cannot be used. Throws InputError when there have been more than max_bad_scans.
   void add_damaged(std::size_t scan, double stamp_s, const std::string& problem);
 
@@ -49,7 +57,8 @@ class Mapper {
   /// The poses as known now. At least one scan has been added.
   SolvedMap solve() const;
 
-  /// Saves the state of the odometry, so that a mapper made on this folder goes on from here.
+  /// Saves the state of the odometry, so that a mapper made on this folder goes on from here, whatever a kill or a
+  /// power cut does to what comes behind.
   void checkpoint() const;
 
   const std::vector<map_store::ScanRecord>& scans() const { return scans_; }
@@ -60,13 +69,19 @@ class Mapper {
   struct Placed;
 
   void load();
+  void begin_with(std::vector<map_store::ScanRecord> scans, std::size_t known, bool newest);
+  void count_record(const std::string& line);
   Placed place(const Scan& scan);
+  bool doubtful(const odometry::TrackedScan& tracked) const;
+  void check_odometry(const Scan& scan, Placed& placed);
+  void believe_registration(const Scan& scan, const Pose& T_segment_lidar, Placed& placed) const;
   bool recover(const Scan& scan, Placed& placed) const;
   bool deserves_keyframe(const odometry::TrackedScan& tracked, map_store::ScanState state) const;
   void write_keyframe(const Scan& scan, const map_store::ScanRecord& record) const;
   void flush_pending();
   void flush_pending(const Vector6d& velocity);
   void keep(map_store::ScanRecord record);
+  void append(const map_store::ScanRecord& record);
   bool after_gap(double stamp_s) const;
   void start_segment(const Scan& scan, const std::string& problem, Placed& placed);
 
@@ -81,6 +96,7 @@ class Mapper {
   std::vector<Keyframe> keyframes_;
   DrivenPath path_;
   std::vector<map_store::LoopRecord> loops_;
+  storage::Sha256 records_sum_;  ///< of the scan records, as written
   std::unique_ptr<storage::RecordWriter> scan_file_;
   std::unique_ptr<storage::RecordWriter> loop_file_;
 };

@@ -25,7 +25,8 @@ struct Alignment {
 };
 
 /// Moves `keypoints` onto the map from the start `T_map_lidar`: Gauss-Newton over robust (Geman-McClure) distances
-/// across the map's planes, with a small weight along them, so that points without a plane count too. Ground counts
+/// across the map's planes, with a small weight along them, so that points without a plane count too; but not along the
+/// lidar's z axis, where the rings of a turning sensor lie as its beams do, not as the surface does. Ground counts
 /// across its planes only, as the rings in which a sensor sees it move along with the sensor; where nothing else holds
 /// the translation, it stays where it starts. `threshold_m`: largest distance of a match.
 Alignment align(const Keypoints& keypoints, const surfels::LocalMap& map, const Pose& T_map_lidar, double threshold_m,

@@ -62,6 +62,7 @@ class Odometry {
   void set_state(const std::string& bytes);
 
   bool deskews() const;
+  Compensation compensation() const { return compensation_; }
   const std::optional<surfels::LocalMap>& map() const { return map_; }
 
  private:

@@ -23,6 +23,7 @@ struct TrackingStatus {
   std::size_t keypoints = 0;     ///< that were aligned
   double inlier_share = 0.0;     ///< of the keypoints, those that fit a surface of the map
   double unmapped_share = 0.0;   ///< of the keypoints, those with nothing of the map nearby: new surroundings
+  bool few_fit = false;          ///< fewer fit than options ask for; believed as no other place fits nearly as well
   double fit_share = 0.0;        ///< the same, of the keypoints that have a point of the map nearby
   std::size_t structure = 0;     ///< of the keypoints, those known to be no ground; 0 where nobody told them apart
   double structure_share = 0.0;  ///< of these, those that fit

@@ -39,8 +39,9 @@ struct DrillResult {
 /// drive) or Interrupted.
 DrillResult run_drill(const DrillJob& job, const std::string& title, const ProgramOptions& options);
 
-/// drill.csv (a row an event), summary.json and report.html in `folder`: the same bytes for the same drill.
-void write_drill(const std::filesystem::path& folder, const DrillResult& result);
+/// drill.csv (a row an event), summary.json and report.html in `folder`: the same bytes for the same drill. `run`: the
+/// folder of the run that was searched.
+void write_drill(const std::filesystem::path& folder, const std::filesystem::path& run, const DrillResult& result);
 
 /// Success by stratum and by disturbance, for people.
 std::string drill_table(const DrillResult& result);

@@ -24,6 +24,10 @@ struct LoopChanges {
 /// registration finds no motion at all, and a decision to forget that nobody made.
 void apply(const LoopChanges& changes, OpenedRun& run);
 
+/// What a solved run comes to, and what making it took: the latter as the run remembers it.
+MapSummary summary_of(const OpenedRun& run, const mapping::SolvedMap& map, const std::vector<Pose>& truth);
+MapTimes times_of(const OpenedRun& run);
+
 /// Where the solved run went.
 struct Rewritten {
   std::filesystem::path run;

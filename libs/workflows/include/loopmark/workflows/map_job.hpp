@@ -15,4 +15,7 @@ MapOutcome start_map(const std::filesystem::path& log, const std::filesystem::pa
 /// Goes on with a run that was interrupted. `arguments`: of the process that goes on.
 MapOutcome resume_map(const std::filesystem::path& run, const std::vector<std::string>& arguments);
 
+/// The log of a run that was interrupted and can be resumed; empty where there is none.
+std::filesystem::path log_of_interrupted(const std::filesystem::path& run);
+
 }  // namespace loopmark::workflows

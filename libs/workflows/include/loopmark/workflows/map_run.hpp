@@ -11,6 +11,7 @@
 #include "loopmark/core/progress.hpp"
 #include "loopmark/io/drive_log.hpp"
 #include "loopmark/mapping/map_components.hpp"
+#include "loopmark/mapping/map_verdict.hpp"
 #include "loopmark/mapping/mapper.hpp"
 #include "loopmark/mapping/trajectory_metrics.hpp"
 #include "loopmark/workflows/options.hpp"
@@ -75,6 +76,7 @@ struct MapSummary {
   std::optional<mapping::AbsoluteError> absolute;           ///< of the scans that have a place in the map
   std::optional<mapping::AbsoluteError> absolute_odometry;  ///< of the same, before the loops
   std::optional<mapping::KittiError> kitti;
+  std::vector<mapping::MapDoubt> doubts;                 ///< empty: the map is good as far as can be told
   std::vector<std::string> damage;                       ///< a line for each damaged scan
   std::vector<DriveSummary> drives;                      ///< of a merged run; else empty
   std::vector<InterSessionSummary> inter_session_loops;  ///< found when they were merged
@@ -85,10 +87,17 @@ struct MapOutcome {
   MapTimes times;
 };
 
-/// Whether and how the log's scans are deskewed: as the options say, else as the log says or its points show.
-odometry::Compensation compensation_of(const io::DriveLog& log, const mapping::SlamOptions& options);
+/// How the scans of a log are taken, and how that is known, for people.
+struct LogCompensation {
+  odometry::Compensation used = odometry::Compensation::kCompensated;
+  std::string text;
+};
 
-/// The same, for people.
+/// Whether and how the log's scans are deskewed: as the options say, else as the log says, else as is measured on its
+/// scans. Throws InputError when the options want times of points that the log does not have.
+LogCompensation compensation_of(const io::DriveLog& log, const mapping::SlamOptions& options);
+
+/// What is done to the scans, for people.
 std::string compensation_text(odometry::Compensation compensation);
 
 /// From a log to a whole run folder. Throws InputError (the partial run stays) or Interrupted (it can be resumed).
@@ -123,10 +132,12 @@ MapSummary summarize(const std::vector<map_store::ScanRecord>& scans, const std:
 /// summary.json: no times, so that the same run gives the same bytes. timings.json: the times.
 void write_summary(const map_store::RunFolder& folder, const MapSummary& summary, const MapTimes& times);
 
-/// report.html: trajectory, loops, drift, timing.
+/// report.html: the map as a page, with its loops, findings, plots and tables. `earlier_page`: of the same keyframes,
+/// whose cloud is taken; empty: made from the keyframes.
 void write_map_report(const map_store::RunFolder& folder, const std::vector<map_store::ScanRecord>& scans,
                       const std::vector<map_store::LoopRecord>& loops, const mapping::SolvedMap& map,
-                      const MapSummary& summary, const MapTimes& times, const std::vector<Pose>& truth);
+                      const MapSummary& summary, const MapTimes& times, const std::vector<Pose>& truth,
+                      double min_loop_p, const std::filesystem::path& earlier_page = {});
 
 /// The table at the end, for people.
 std::string closing_table(const MapOutcome& outcome);

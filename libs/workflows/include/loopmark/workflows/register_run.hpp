@@ -18,10 +18,12 @@ struct RegisterRun {
   std::string source_name;
   std::string target_name;
   std::string algorithm = "engine";  ///< or custom (ProgramOptions::paper), or one of named_algorithms()
+  std::string descriptor;  ///< of the paper's variants: a name, or a folder of .npz files named like the scans;
+                           ///< empty: the variant's own
   registration::RegistrationResult result;
 };
 
-/// Runs `algorithm` on the clouds and fills the result. Throws InputError for an unknown algorithm.
+/// Runs `algorithm` on the clouds and fills the result. Throws InputError for an unknown algorithm or descriptor.
 void run_registration(RegisterRun& run, const ProgramOptions& options);
 
 /// The motion, the verdict and the evidence, for people.

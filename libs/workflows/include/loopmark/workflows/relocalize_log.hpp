@@ -4,9 +4,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "loopmark/localization/relocalization_report.hpp"
+#include "loopmark/mapping/map_truth.hpp"
 #include "loopmark/workflows/options.hpp"
 
 namespace loopmark::workflows {
@@ -24,6 +26,8 @@ struct RelocalizeJob {
 struct RelocalizeOutcome {
   std::vector<localization::RelocalizedScan> scans;  ///< one for each scan that was taken
   localization::RelocalizationSummary summary;
+  std::optional<mapping::MapTruth> map_truth = {};  ///< what answers were judged by, where they were
+  std::vector<Pose> true_query = {};                ///< one pose for each scan of the log then
 };
 
 /// Places the scans. Throws InputError when the run or the log cannot be used, Interrupted when the user asks to stop.

@@ -1,0 +1,15 @@
+# Run at each build: writes OUTPUT with the git commit of SOURCE_DIR, only when it is another one than before.
+set(commit "")
+find_program(git git)
+if(git AND EXISTS ${SOURCE_DIR}/.git)
+  execute_process(COMMAND ${git} -C ${SOURCE_DIR} describe --always --abbrev=12 --exclude=* --dirty=+changes
+    OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endif()
+set(text "#define LOOPMARK_COMMIT \"${commit}\"\n")
+set(before "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} before)
+endif()
+if(NOT text STREQUAL before)
+  file(WRITE ${OUTPUT} "${text}")
+endif()
