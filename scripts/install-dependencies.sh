@@ -7,11 +7,12 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/install-dependencies.sh [--checks] [--peers] [--dry-run]
+usage: scripts/install-dependencies.sh [--checks] [--fuzz] [--peers] [--dry-run]
 
 Installs what building and testing loopmark needs, from the distribution's own archive:
 compilers and build tools, and the libraries listed in this script.
-  --checks   also what the style checks need (clang-format, clang-tidy)
+  --checks   also what the checks need (clang-format, clang-tidy; Chromium for the tests of the pages)
+  --fuzz     also what fuzzing and the fault scripts need (clang with libFuzzer, strace)
   --peers    also what the benchmarks compare against (Open3D, Google Benchmark, their Python)
              and what the Slurm example needs
   --dry-run  only say what would be installed
@@ -32,21 +33,32 @@ libmrpt-obs-dev=1:2.5.*    libmrpt-maps-dev=1:2.5.*  libmrpt-poses-dev=1:2.5.*
 libmrpt-io-dev=1:2.5.*     libmrpt-opengl-dev=1:2.5.*
 libyaml-cpp-dev=0.7.*      libcli11-dev=2.1.*    nlohmann-json3-dev=3.11.*
 libkissfft-dev=131.*       libpng-dev=1.6.*      zlib1g-dev=1:1.2.*     libzstd-dev=1.5.*
+libsqlite3-dev=3.40.*      liblz4-dev=1.9.*        libbz2-dev=1.0.*
+libcpp-httplib-dev=0.11.*
 libgtest-dev=1.12.*        libgmock-dev=1.12.*
 '
+# The script of the pages is bundled with these. Node from elsewhere brings its own npm, which Debian's would conflict with.
+pages='esbuild=0.17.*'
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  pages+=' nodejs=18.* npm=9.2.*'
+fi
 checks='
-clang-format=1:14.*        clang-tidy=1:14.*
+clang-format=1:14.*        clang-tidy=1:14.*         chromium=*
+'
+fuzzers='
+clang-14=1:14.*            libclang-rt-14-dev=1:14.*   strace=6.1*
 '
 peers='
 libopen3d-dev=0.16.*       libbenchmark-dev=1.7.*  python3-open3d=0.16.*  python3-numpy=1:1.24.*
 slurm-wlm=22.05.*          munge=0.5.*
 '
 
-wanted="$build_tools $libraries"
+wanted="$build_tools $libraries $pages"
 dry_run=false
 for argument in "$@"; do
   case "$argument" in
     --checks) wanted+=" $checks" ;;
+    --fuzz) wanted+=" $fuzzers" ;;
     --peers) wanted+=" $peers" ;;
     --dry-run) dry_run=true ;;
     -h | --help) usage; exit 0 ;;
